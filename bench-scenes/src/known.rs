@@ -1,0 +1,182 @@
+//! The scenes that have a name.
+
+use metaball_core::{Kernel, Scene};
+
+use crate::cameras::{framing, walk_around};
+use crate::error::LoadError;
+use crate::file::{FileKind, unpack};
+use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
+use crate::small::{self, Shot};
+use crate::{BenchScene, Kind, generate};
+
+/// A scene that [`load`](crate::load()) knows by name.
+#[derive(Debug)]
+pub struct KnownScene {
+    /// What to ask for.
+    pub name: &'static str,
+    /// One sentence on what it shows.
+    pub about: &'static str,
+    /// Whether it has at most a few hundred balls: tests run every method on these.
+    pub small: bool,
+    /// How strictly verdicts on its rays may be compared.
+    pub kind: Kind,
+    recipe: Recipe,
+}
+
+#[derive(Debug)]
+enum Recipe {
+    /// A generator's spec.
+    Generated(&'static str),
+    /// A file of this package, and where it is seen from (from the middle to the eye).
+    Data(FileKind, &'static str, &'static [u8], [f32; 3]),
+    /// Made by hand.
+    Small(fn() -> Result<Shot, LoadError>),
+}
+
+use Recipe::{Data, Generated, Small};
+
+/// All known scenes, the large ones first.
+pub fn known() -> &'static [KnownScene] {
+    KNOWN
+}
+
+const fn large(name: &'static str, about: &'static str, recipe: Recipe) -> KnownScene {
+    KnownScene { name, about, small: false, kind: Kind::General, recipe }
+}
+
+const fn small(name: &'static str, about: &'static str, recipe: Recipe) -> KnownScene {
+    KnownScene { name, about, small: true, kind: Kind::General, recipe }
+}
+
+const fn clear(name: &'static str, about: &'static str, recipe: Recipe) -> KnownScene {
+    KnownScene { name, about, small: true, kind: Kind::Clear, recipe }
+}
+
+const KNOWN: &[KnownScene] = &[
+    large(
+        "molecule",
+        "Rhodopsin, 5,547 atoms with their hydrogens, in the colours of the elements.",
+        Data(
+            FileKind::Pdb,
+            "md_1u19.pdb.gz",
+            include_bytes!("../data/md_1u19.pdb.gz"),
+            [1.0, 0.15, 0.2],
+        ),
+    ),
+    large(
+        "molecule-large",
+        "A ribosome, 165,175 atoms, in the colours of the elements.",
+        Data(
+            FileKind::Mmcif,
+            "6zu5.cif.gz",
+            include_bytes!("../data/6zu5.cif.gz"),
+            [0.5, 0.3, 1.0],
+        ),
+    ),
+    large(
+        "dam-break",
+        "A simulated dam break, 30,720 particles of water 0.6 s after the dam is gone.",
+        Data(
+            FileKind::Quantized,
+            "dam-break.balls",
+            include_bytes!("../data/dam-break.balls"),
+            [0.5, 0.4, 1.0],
+        ),
+    ),
+    large("scattered-30k", "30,000 equal balls, sparse.", Generated("scattered:30000")),
+    large("scattered-100k", "100,000 equal balls, sparse.", Generated("scattered:100000")),
+    large("tornado-4k", "A tornado of 4,000 balls, dense.", Generated("tornado:4000")),
+    large("tornado-128k", "A tornado of 128,000 balls, dense.", Generated("tornado:128000")),
+    large("pool-10k", "A tank of fluid of 10,000 balls, dense.", Generated("pool:10000")),
+    small("one-power-1", "One ball, power kernel α = 1.", Small(|| small::one_power(1))),
+    small("one-power-2", "One ball, power kernel α = 2.", Small(|| small::one_power(2))),
+    small("one-power-3", "One ball, power kernel α = 3.", Small(|| small::one_power(3))),
+    small("one-power-4", "One ball, power kernel α = 4.", Small(|| small::one_power(4))),
+    small("one-power-5", "One ball, power kernel α = 5.", Small(|| small::one_power(5))),
+    small("one-power-6", "One ball, power kernel α = 6.", Small(|| small::one_power(6))),
+    small("one-power-7", "One ball, power kernel α = 7.", Small(|| small::one_power(7))),
+    small("one-power-8", "One ball, power kernel α = 8.", Small(|| small::one_power(8))),
+    small("one-wyvill", "One ball, Wyvill's kernel.", Small(|| small::one(Kernel::Wyvill))),
+    small("one-perlin", "One ball, Perlin's kernel.", Small(|| small::one(Kernel::Perlin))),
+    small("two-merging", "Two balls with one surface.", Small(small::two_merging)),
+    small(
+        "fifteen-coincident",
+        "Fifteen balls at one place, one more than Kanamori's lists hold.",
+        Small(small::fifteen_coincident),
+    ),
+    small(
+        "far-from-origin",
+        "Twelve balls of radius 1, more than 10,000 from the origin.",
+        Small(small::far_from_origin),
+    ),
+    small(
+        "radius-ratio-1000",
+        "Forty balls on the surface of one a thousand times as large.",
+        Small(small::radius_ratio_1000),
+    ),
+    small("random-200", "200 balls of random radii, Wyvill's kernel.", Generated("random:200")),
+    small("strengths-100", "100 balls of strengths from 0.3 to 3.", Small(small::strengths)),
+    small("colors-100", "The same with a colour for each ball.", Small(small::colors)),
+    small(
+        "eye-inside-support",
+        "The eye in four supports but outside the surface.",
+        Small(small::eye_inside_support),
+    ),
+    clear(
+        "eye-inside-surface",
+        "The eye in the solid: every ray is inside.",
+        Small(small::eye_inside_surface),
+    ),
+    clear("empty", "No ball: an empty picture.", Small(small::empty)),
+    clear(
+        "threshold-too-high",
+        "T above the field's maximum: an empty picture.",
+        Small(small::threshold_too_high),
+    ),
+    clear("filling", "Three balls that fill the picture: every ray hits.", Small(small::filling)),
+];
+
+impl KnownScene {
+    /// Makes the scene.
+    ///
+    /// # Errors
+    /// None that a test would not have found: the data are part of this package.
+    pub fn scene(&self) -> Result<BenchScene, LoadError> {
+        let (scene, camera, path) = match self.recipe {
+            Generated(spec) => {
+                let Some(made) = generate::from_spec(spec)? else {
+                    unreachable!("{spec} names a generator");
+                };
+                (made.scene, made.camera, made.path)
+            }
+            Data(kind, file, bytes, seen_from) => {
+                let scene = data(kind, file, bytes)?;
+                let (bounds, seen_from) = (scene.bounds(), seen_from.into());
+                (scene, framing(&bounds, seen_from), walk_around(&bounds, seen_from))
+            }
+            Small(make) => {
+                let (scene, camera) = make()?;
+                (scene, camera, Vec::new())
+            }
+        };
+        Ok(BenchScene {
+            name: self.name.to_owned(),
+            about: self.about.to_owned(),
+            scene,
+            camera,
+            path,
+            kind: self.kind,
+        })
+    }
+}
+
+fn data(kind: FileKind, file: &str, bytes: &[u8]) -> Result<Scene, LoadError> {
+    let unpacked = if file.ends_with(".gz") {
+        unpack(bytes).map_err(|source| LoadError::Read { file: file.to_owned(), source })?
+    } else {
+        bytes.to_vec()
+    };
+    kind.parse(&unpacked)
+        .and_then(|particles| particles.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD))
+        .map_err(|flaw| flaw.in_file(file))
+}

@@ -1,0 +1,133 @@
+//! From what a user types to a scene.
+
+use std::path::Path;
+
+use glam::Vec3;
+use metaball_core::{Kernel, Scene};
+
+use crate::cameras::framing;
+use crate::error::{Flaw, LoadError};
+use crate::file::{self, FileKind};
+use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
+use crate::{BenchScene, Kind, generate, generators, known, scene_file};
+
+/// What replaces a scene's own choices; `None` keeps them. Support radii stay as they are.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Overrides {
+    /// Another kernel.
+    pub kernel: Option<Kernel>,
+    /// Another exponent, 1 to 8, for a scene (or a `kernel` above) of a power kernel.
+    pub exponent: Option<i64>,
+    /// Another threshold T.
+    pub threshold: Option<f32>,
+}
+
+/// The scene of a spec: a name of [`known()`], a generator's `name:count[:density[:seed]]`, or the path
+/// of a `.toml`, `.csv`, `.xyz`, `.pdb`, `.ent`, `.cif`, `.mmcif` or `.balls` file, also with `.gz`.
+///
+/// # Errors
+/// Names the file with line and column or key, or the part of the spec, what was needed and found.
+pub fn load(spec: &str, overrides: &Overrides) -> Result<BenchScene, LoadError> {
+    let path = Path::new(spec);
+    let mut scene = if let Some(known) = known().iter().find(|known| known.name == spec) {
+        known.scene()?
+    } else if let Some(scene) = generate::from_spec(spec)? {
+        scene
+    } else if let Some(kind) = FileKind::of(path) {
+        from_file(path, kind)?
+    } else {
+        let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
+        return Err(LoadError::Unknown {
+            spec: spec.to_owned(),
+            known: names(&mut known().iter().map(|known| known.name)),
+            generators: names(&mut generators().iter().map(|generator| generator.name)),
+        });
+    };
+    scene.scene = overridden(scene.scene, overrides)?;
+    Ok(scene)
+}
+
+/// The kernel of a name in scene files and commands: `power` (with an exponent, else 2), `power-1` to
+/// `power-8`, `wyvill`, `perlin`.
+///
+/// # Errors
+/// When there is no such kernel, or it does not go with the exponent.
+pub fn kernel_named(name: &str, exponent: Option<i64>) -> Result<Kernel, LoadError> {
+    let parameter = |name: &str, needed: &str, found: String| LoadError::Parameter {
+        name: name.to_owned(),
+        needed: needed.to_owned(),
+        found,
+    };
+    let named = match name {
+        "power" => Some(Kernel::QUARTIC),
+        _ => Kernel::all().find(|kernel| kernel.to_string() == name),
+    };
+    match (named, exponent) {
+        (Some(Kernel::Power(own)), Some(exponent))
+            if name == "power" || i64::from(own.get()) == exponent =>
+        {
+            Kernel::power(exponent).map_err(|error| {
+                parameter("kernel exponent", "an integer from 1 to 8", error.found.to_string())
+            })
+        }
+        (Some(_), Some(_)) => {
+            Err(parameter("kernel exponent", "the kernel power", format!("{name:?}")))
+        }
+        (Some(kernel), None) => Ok(kernel),
+        (None, _) => {
+            let needed = "power, power-1 to power-8, wyvill or perlin";
+            Err(parameter("kernel", needed, format!("{name:?}")))
+        }
+    }
+}
+
+fn overridden(scene: Scene, overrides: &Overrides) -> Result<Scene, LoadError> {
+    let kernel = overrides.kernel.unwrap_or(scene.kernel());
+    let kernel = match (kernel, overrides.exponent) {
+        (Kernel::Power(_), Some(exponent)) => kernel_named("power", Some(exponent))?,
+        (_, exponent) => kernel_named(&kernel.to_string(), exponent)?,
+    };
+    let threshold = overrides.threshold.unwrap_or(scene.threshold());
+    Ok(scene.with_kernel(kernel).with_threshold(threshold)?)
+}
+
+fn from_file(path: &Path, kind: FileKind) -> Result<BenchScene, LoadError> {
+    let bytes = file::read(path)?;
+    let own = path.display().to_string();
+    if kind != FileKind::SceneFile {
+        let particles = kind.parse(&bytes).map_err(|flaw| flaw.in_file(&own))?;
+        let scene = particles.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD);
+        return Ok(of_file(path, scene.map_err(|flaw| flaw.in_file(&own))?));
+    }
+
+    let scene_file =
+        file::text(&bytes).and_then(scene_file::parse).map_err(|flaw| flaw.in_file(&own))?;
+    let table = path.parent().unwrap_or(Path::new("")).join(&scene_file.particles);
+    let kind =
+        FileKind::of(&table).filter(|kind| *kind != FileKind::SceneFile).ok_or_else(|| {
+            let needed =
+                "a .csv, .xyz, .pdb, .ent, .cif, .mmcif or .balls file, or one of these with .gz";
+            let flaw = Flaw::needed(needed, format_args!("{:?}", scene_file.particles));
+            flaw.at_key("particles").in_file(&own)
+        })?;
+    let bytes = file::read(&table)?;
+    let scene = kind
+        .parse(&bytes)
+        .and_then(|particles| particles.into_scene(scene_file.kernel, scene_file.threshold))
+        .map_err(|flaw| flaw.in_file(&table.display().to_string()))?;
+    let framed = of_file(path, scene);
+    Ok(BenchScene { camera: scene_file.camera.unwrap_or(framed.camera), ..framed })
+}
+
+/// The scene of a user's file, framed from the front, a little from the right and from above.
+fn of_file(path: &Path, scene: Scene) -> BenchScene {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    BenchScene {
+        about: format!("The particles of {name}."),
+        name,
+        camera: framing(&scene.bounds(), Vec3::new(0.4, 0.3, 1.0)),
+        path: Vec::new(),
+        kind: Kind::General,
+        scene,
+    }
+}

@@ -1,0 +1,206 @@
+//! Scene files: TOML that names a particle file and says how its balls make a surface.
+//!
+//! ```toml
+//! particles = "pool.csv"      # a particle file; path relative to the scene file
+//! kernel = "power"            # "power" (with exponent), "wyvill" or "perlin"; default "power"
+//! exponent = 2                # 1 to 8, for "power" only; default 2
+//! threshold = 0.25            # above 0; default 0.25
+//! [camera]                    # default: one that frames the particles
+//! eye = [2.2, 1.7, 3.4]
+//! look_at = [0.0, 0.0, 0.0]
+//! up = [0.0, 1.0, 0.0]        # default: this
+//! vertical_fov_degrees = 38.0 # default: this
+//! ```
+
+use glam::Vec3;
+use metaball_core::{Camera, Kernel};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::error::{Flaw, LoadError};
+use crate::load::kernel_named;
+use crate::particles::DEFAULT_THRESHOLD;
+
+/// What a scene file says.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SceneFile {
+    /// Path of the particle file, as written.
+    pub(crate) particles: String,
+    pub(crate) kernel: Kernel,
+    pub(crate) threshold: f32,
+    /// `None` for one that frames the particles.
+    pub(crate) camera: Option<Camera>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Keys {
+    particles: String,
+    kernel: Option<Spanned<String>>,
+    exponent: Option<Spanned<i64>>,
+    threshold: Option<Spanned<f32>>,
+    camera: Option<Spanned<CameraKeys>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraKeys {
+    eye: [f32; 3],
+    look_at: [f32; 3],
+    #[serde(default = "y_up")]
+    up: [f32; 3],
+    #[serde(default = "field_of_view")]
+    vertical_fov_degrees: f32,
+}
+
+fn y_up() -> [f32; 3] {
+    Vec3::Y.to_array()
+}
+
+fn field_of_view() -> f32 {
+    38.0
+}
+
+/// Reads a scene file's text. The particle file is not looked at.
+pub(crate) fn parse(text: &str) -> Result<SceneFile, Flaw> {
+    let keys: Keys = toml::from_str(text).map_err(|error| {
+        let flaw = Flaw::new(error.message());
+        match error.span() {
+            Some(span) => at(flaw, text, span.start),
+            None => flaw,
+        }
+    })?;
+
+    let threshold = match &keys.threshold {
+        Some(value) if !(value.get_ref().is_finite() && *value.get_ref() > 0.0) => {
+            let flaw = Flaw::needed("a finite number above 0", value.get_ref());
+            return Err(at(flaw.at_key("threshold"), text, value.span().start));
+        }
+        Some(value) => *value.get_ref(),
+        None => DEFAULT_THRESHOLD,
+    };
+    Ok(SceneFile {
+        kernel: kernel(&keys, text)?,
+        threshold,
+        camera: keys.camera.as_ref().map(|camera| camera_of(camera, text)).transpose()?,
+        particles: keys.particles,
+    })
+}
+
+fn kernel(keys: &Keys, text: &str) -> Result<Kernel, Flaw> {
+    let flaw = |error: &LoadError, key: &str, byte: usize| {
+        at(Flaw::new(error.to_string()).at_key(key), text, byte)
+    };
+    let (name, byte) =
+        keys.kernel.as_ref().map_or(("power", 0), |name| (name.get_ref(), name.span().start));
+    let kernel = kernel_named(name, None).map_err(|error| flaw(&error, "kernel", byte))?;
+    let Some(exponent) = &keys.exponent else { return Ok(kernel) };
+    kernel_named(name, Some(*exponent.get_ref()))
+        .map_err(|error| flaw(&error, "exponent", exponent.span().start))
+}
+
+fn camera_of(keys: &Spanned<CameraKeys>, text: &str) -> Result<Camera, Flaw> {
+    let CameraKeys { eye, look_at, up, vertical_fov_degrees } = *keys.get_ref();
+    Camera::look_at(eye.into(), look_at.into(), up.into(), vertical_fov_degrees)
+        .map_err(|error| at(Flaw::new(error.to_string()), text, keys.span().start))
+}
+
+/// The flaw at a byte of the text.
+fn at(flaw: Flaw, text: &str, byte: usize) -> Flaw {
+    let before = text.get(..byte).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = 1 + before.matches('\n').count();
+    flaw.at_line(line).at_column(1 + before[line_start..].chars().count())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const FULL: &str = r#"
+particles = "pool.csv"
+kernel = "power"
+exponent = 3
+threshold = 0.2
+[camera]
+eye = [2.2, 1.7, 3.4]
+look_at = [0.0, 0.0, 0.0]
+up = [0.0, 1.0, 0.0]
+vertical_fov_degrees = 40
+"#;
+
+    fn refusal(text: &str) -> String {
+        parse(text).expect_err("refused").in_file("a.toml").to_string()
+    }
+
+    #[test]
+    fn every_key_is_read() {
+        let file = parse(FULL).expect("legal");
+        let camera = Camera::look_at(Vec3::new(2.2, 1.7, 3.4), Vec3::ZERO, Vec3::Y, 40.0);
+        assert_eq!(
+            file,
+            SceneFile {
+                particles: "pool.csv".to_owned(),
+                kernel: Kernel::power(3).expect("legal"),
+                threshold: 0.2,
+                camera: camera.ok(),
+            }
+        );
+    }
+
+    #[test]
+    fn only_the_particles_are_required() {
+        let file = parse("particles = 'a.xyz'").expect("legal");
+        assert_eq!((file.kernel, file.threshold, file.camera), (Kernel::QUARTIC, 0.25, None));
+        let wyvill = parse("particles = 'a.xyz'\nkernel = 'wyvill'").expect("legal");
+        assert_eq!(wyvill.kernel, Kernel::Wyvill);
+        assert!(refusal("kernel = 'wyvill'").contains("missing field `particles`"));
+    }
+
+    #[test]
+    fn refusals_name_line_column_and_key() {
+        let with = |from: &str, to: &str| refusal(&FULL.replace(from, to));
+        assert!(
+            with("threshold", "treshold")
+                .starts_with("a.toml, line 5, column 1: unknown field `treshold`")
+        );
+        assert_eq!(
+            with("0.2\n", "-1.0\n"),
+            "a.toml, line 5, column 13 (threshold): needed a finite number above 0, found -1"
+        );
+        assert_eq!(
+            with("\"power\"", "\"gauss\""),
+            "a.toml, line 3, column 10 (kernel): kernel: needed power, power-1 to power-8, wyvill \
+             or perlin, found \"gauss\""
+        );
+        assert_eq!(
+            with("exponent = 3", "exponent = 9"),
+            "a.toml, line 4, column 12 (exponent): kernel exponent: needed an integer from 1 to 8, \
+             found 9"
+        );
+        assert_eq!(
+            with("\"power\"", "\"wyvill\""),
+            "a.toml, line 4, column 12 (exponent): kernel exponent: needed the kernel power, found \
+             \"wyvill\""
+        );
+        assert!(with("up = [0.0, 1.0, 0.0]", "up = [2.2, 1.7, 3.4]").contains("camera up: needed"));
+        assert!(with("[2.2, 1.7, 3.4]", "[2.2, 1.7]").starts_with("a.toml, line 7, column 7:"));
+        assert!(with("0.2\n", "\n").starts_with("a.toml, line 5"));
+        assert!(with("eye", "eyes").contains("unknown field `eyes`"));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_panics(text in any::<String>()) {
+            let _ = parse(&text);
+        }
+
+        #[test]
+        fn no_mutated_file_panics(at in 0..FULL.len(), insert in "[\\[\\]\"a-z0-9.=\n-]{0,3}", cut in 0..5usize) {
+            let end = (at + cut).min(FULL.len());
+            let _ = parse(&[&FULL[..at], &insert, &FULL[end..]].concat());
+        }
+    }
+}

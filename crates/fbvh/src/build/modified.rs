@@ -1,0 +1,90 @@
+//! Dividing a node of the modified BVH: section 4.1, algorithm 1.
+
+use std::ops::Range;
+
+use metaball_core::Aabb;
+
+use super::{Builder, Division, MEDIAN_FROM, Part, gather, partition};
+use crate::ball::Ball;
+use crate::plane::{centers_of, cut_centers, longest_axis};
+
+/// Split balls of nodes with at most this many own balls are tested against each of them; above, the
+/// box around the own balls stands for them. What a leaf ends up with is the same either way, since
+/// a ball that meets one of the leaf's own balls meets every box above it.
+const EXACT_UP_TO: usize = 32;
+
+impl Builder {
+    /// Distributes own balls by their centres, and finds each part's split balls.
+    pub(super) fn divide_modified(
+        &self,
+        own: &mut [Ball],
+        pool: &mut Vec<Ball>,
+        part: &Part,
+    ) -> Division {
+        let Some((axis, middle)) = self.part_centers(own, part) else {
+            return Division::Leaf(exact_splits(own, pool, &part.splits));
+        };
+        let (left_own, right_own) = own.split_at(middle);
+        let side = |pool: &mut Vec<Ball>, own: &[Ball], others: &[Ball]| {
+            let start = pool.len();
+            let bounds = own.iter().fold(Aabb::EMPTY, |around, ball| around.union(&ball.bounds()));
+            gather(pool, &part.splits, others, |ball| {
+                ball.reaches(&bounds) && (own.len() > EXACT_UP_TO || meets_any(ball, own))
+            });
+            let splits = start..pool.len();
+            Part { splits, bounds, depth: part.depth + 1 }
+        };
+        let left = side(pool, left_own, right_own);
+        let right = side(pool, right_own, left_own);
+        Division::Two(axis, (0..middle, left), (middle..own.len(), right))
+    }
+
+    /// Moves the balls that belong to the left to the front, and returns the axis and how many they
+    /// are; `None` where the node had better be a leaf.
+    fn part_centers(&self, own: &mut [Ball], part: &Part) -> Option<(usize, usize)> {
+        let options = &self.options;
+        if part.depth >= self.max_depth || own.len() <= options.leaf_size as usize {
+            return None;
+        }
+        let centers = centers_of(own);
+        let longest = longest_axis(&centers);
+        if centers.extent()[longest] <= 0.0 {
+            return None;
+        }
+        let (axis, at) = if part.depth >= MEDIAN_FROM {
+            (longest, f32::NAN)
+        } else if own.len() > options.halve_above as usize {
+            (longest, centers.center()[longest])
+        } else {
+            let plane = cut_centers(own, &part.bounds, options.bins as usize, options.cost)?;
+            if options.traversal_cost + plane.cost >= options.cost.of(own.len()) {
+                return None;
+            }
+            (plane.axis, plane.at)
+        };
+        let left = partition(own, |ball| ball.center[axis] < at);
+        if left > 0 && left < own.len() {
+            return Some((axis, left));
+        }
+        // No plane, or one that rounding has moved past the last centre: halve by number.
+        let middle = own.len() / 2;
+        own.select_nth_unstable_by(middle, |a, b| {
+            a.center[axis].total_cmp(&b.center[axis]).then(a.index.cmp(&b.index))
+        });
+        Some((axis, middle))
+    }
+}
+
+/// The split balls of a leaf, tested against each own ball if that has not been done.
+fn exact_splits(own: &[Ball], pool: &mut Vec<Ball>, splits: &Range<usize>) -> Range<usize> {
+    if own.len() <= EXACT_UP_TO {
+        return splits.clone();
+    }
+    let start = pool.len();
+    gather(pool, splits, &[], |ball| meets_any(ball, own));
+    start..pool.len()
+}
+
+fn meets_any(ball: &Ball, own: &[Ball]) -> bool {
+    own.iter().any(|other| ball.overlaps(other))
+}

@@ -1,0 +1,68 @@
+//! A tree on the graphics card.
+
+use metaball_core::gpu::{Gpu, RenderError};
+
+use super::pipelines::Layouts;
+use super::waiting::WaitingRoom;
+use crate::Tree;
+
+/// The longest list that one walk of a shader may go along: with four balls an iteration and the
+/// budget of `fbvh/suspend.wgsl` this stays below the 65,535 iterations of software Vulkan.
+const LONGEST_LIST: u32 = 100_000;
+
+/// The three arrays of a tree, bound together with the room for waiting rays.
+pub(super) struct DeviceTree {
+    nodes: wgpu::Buffer,
+    leaves: wgpu::Buffer,
+    lists: wgpu::Buffer,
+    bind_group: wgpu::BindGroup,
+}
+
+impl DeviceTree {
+    pub(super) fn new(
+        gpu: &Gpu,
+        method: &'static str,
+        layouts: &Layouts,
+        tree: &Tree,
+        waiting: &WaitingRoom,
+    ) -> Result<Self, RenderError> {
+        let longest = tree.leaves().windows(2).map(|pair| pair[1].first - pair[0].first).max();
+        if let Some(found) = longest.filter(|&longest| longest > LONGEST_LIST) {
+            let reason =
+                format!("needed leaves of at most {LONGEST_LIST} balls, found one of {found}");
+            return Err(RenderError::Unsupported { method, reason });
+        }
+        let none = wgpu::BufferUsages::empty();
+        let nodes = gpu.upload("fbvh nodes", tree.nodes(), none)?;
+        let leaves = gpu.upload("fbvh leaves", tree.leaves(), none)?;
+        let lists = gpu.upload("fbvh lists", tree.lists(), none)?;
+        let bind_group = bind(gpu, layouts, [&nodes, &leaves, &lists, waiting.pool()]);
+        Ok(Self { nodes, leaves, lists, bind_group })
+    }
+
+    /// Binds the tree with another room.
+    pub(super) fn rebind(&mut self, gpu: &Gpu, layouts: &Layouts, waiting: &WaitingRoom) {
+        let buffers = [&self.nodes, &self.leaves, &self.lists, waiting.pool()];
+        self.bind_group = bind(gpu, layouts, buffers);
+    }
+
+    pub(super) fn bind_group(&self) -> &wgpu::BindGroup {
+        &self.bind_group
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        self.nodes.size() + self.leaves.size() + self.lists.size()
+    }
+}
+
+fn bind(gpu: &Gpu, layouts: &Layouts, buffers: [&wgpu::Buffer; 4]) -> wgpu::BindGroup {
+    let entry = |binding| wgpu::BindGroupEntry {
+        binding,
+        resource: buffers[binding as usize].as_entire_binding(),
+    };
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("fbvh tree"),
+        layout: &layouts.tree,
+        entries: &[entry(0), entry(1), entry(2), entry(3)],
+    })
+}

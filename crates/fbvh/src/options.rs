@@ -1,0 +1,131 @@
+//! Which structure to build, and how.
+
+use crate::MAX_DEPTH;
+
+/// The two structures of the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Section 4: boxes around own balls, which overlap; a leaf projects its own balls only, and a
+    /// ray goes on until no nearer leaf is left.
+    ModifiedBvh,
+    /// Section 5: boxes that do not overlap; a leaf projects all its balls, and the first hit ends
+    /// the ray.
+    Fitted,
+}
+
+/// The structure to build, with what is particular to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Structure {
+    /// Section 4, algorithm 1.
+    ModifiedBvh,
+    /// Section 5, algorithm 2.
+    Fitted(Fitting),
+}
+
+/// How the nodes of a Fitted BVH are cut down to what they must hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fitting {
+    /// How the boxes are fitted.
+    pub boxes: Boxes,
+    /// Section 5.3.2: split balls that cannot take part in a surface inside the box are discarded
+    /// in nodes of at most this many balls; 0 discards nothing. The test is quadratic: the paper's
+    /// section 6 advises to skip it in nodes of more than a dozen.
+    pub discard_up_to: u32,
+}
+
+/// How a node's box, cut from its parent's by the splitting plane, is fitted to its balls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Boxes {
+    /// Not at all: table 4, left.
+    Cut,
+    /// To the support spheres: section 5.1.2; table 4, right.
+    Support,
+    /// To spheres of radius min(Rᵢ, `r_max`), `r_max` = R·k⁻¹(T/Σq) with the largest radius R of the
+    /// node's balls: section 5.3.1, with T/Σq for the printed T/n, which strengths above 1 break.
+    PerNode,
+    /// To spheres of radius Rᵢ·k⁻¹(T/Σq): the same bound for each ball. Not in the paper; never
+    /// looser than [`Boxes::PerNode`].
+    PerBall,
+}
+
+/// What testing a leaf of n balls is taken to cost, in units of one ball's share of one evaluation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cost {
+    /// n: the standard heuristic.
+    Linear,
+    /// n² + λn: section 5.1.1. The square is the search for the bracket, which evaluates n balls at
+    /// n projections; the rest is the secant search.
+    Quadratic {
+        /// λ. The paper sets 0.
+        lambda: f32,
+    },
+}
+
+impl Cost {
+    /// The cost of a leaf of so many balls.
+    pub(crate) fn of(self, balls: usize) -> f32 {
+        let balls = balls as f32;
+        match self {
+            Self::Linear => balls,
+            Self::Quadratic { lambda } => balls * (balls + lambda),
+        }
+    }
+}
+
+/// How to build a tree. Start from [`Options::fitted`] or [`Options::modified_bvh`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Which structure.
+    pub structure: Structure,
+    /// What the surface area heuristic takes a leaf to cost. n counts own and split balls in the
+    /// Fitted BVH, own balls in the modified BVH.
+    pub cost: Cost,
+    /// What a step of the traversal costs, in the unit of [`Options::cost`]. A node is split only
+    /// where that is cheaper than leaving it a leaf.
+    pub traversal_cost: f32,
+    /// Bins a node is divided into along each axis to find the best plane (Wald 2007). From 2 to 16.
+    pub bins: u32,
+    /// Section 7: nodes of more balls than this are halved along their longest axis, without
+    /// binning. `u32::MAX` bins them all.
+    pub halve_above: u32,
+    /// Nodes of at most this many balls are not split further.
+    pub leaf_size: u32,
+    /// Levels of interior nodes; [`MAX_DEPTH`] where more is asked for. From the level halfway down
+    /// on, planes go through the middle ball; what is left at the last level is a leaf, however
+    /// large.
+    pub max_depth: usize,
+}
+
+impl Options {
+    /// The modified BVH of section 4: standard heuristic, 16 bins.
+    pub const fn modified_bvh() -> Self {
+        Self {
+            structure: Structure::ModifiedBvh,
+            cost: Cost::Linear,
+            traversal_cost: 1.0,
+            bins: 16,
+            halve_above: u32::MAX,
+            leaf_size: 1,
+            max_depth: MAX_DEPTH,
+        }
+    }
+
+    /// The Fitted BVH with everything the paper's section 5 has: cost n², fitted boxes, tighter
+    /// radii per node, discarding in nodes of up to a dozen balls; 16 bins.
+    pub const fn fitted() -> Self {
+        Self {
+            structure: Structure::Fitted(Fitting { boxes: Boxes::PerNode, discard_up_to: 12 }),
+            cost: Cost::Quadratic { lambda: 0.0 },
+            traversal_cost: 24.0,
+            ..Self::modified_bvh()
+        }
+    }
+
+    /// Which structure these options build.
+    pub const fn kind(&self) -> Kind {
+        match self.structure {
+            Structure::ModifiedBvh => Kind::ModifiedBvh,
+            Structure::Fitted(_) => Kind::Fitted,
+        }
+    }
+}

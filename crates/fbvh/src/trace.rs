@@ -1,0 +1,267 @@
+//! Rays through a tree on the CPU, in f32: sections 4 and 5.2.
+
+mod leaf;
+mod slabs;
+mod work;
+
+use glam::Vec3;
+use metaball_core::{Hit, Ray, Verdict};
+use rayon::prelude::*;
+
+use crate::node::{EMPTY, MAX_DEPTH};
+use crate::tree::Child;
+use crate::{Field, Kind, Tree};
+
+use self::slabs::Slabs;
+pub use self::work::{Counter, Work};
+
+/// How section 5.2's leaf test of the Fitted BVH is read, which says neither what happens when
+/// projections lie outside the leaf's box nor where the bracket starts. The modified BVH is not
+/// affected: section 4 leaves no choice, and it reads as [`Reading::Literal`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Reading {
+    /// Projections count wherever they fall, the bracket starts at the ray's origin, and the leaf's
+    /// list is used even outside its box, where it is incomplete.
+    Literal,
+    /// Only the ray's stretch inside the box counts: the field is tested where it enters and where
+    /// it leaves, projections in between, and the bracket starts at the entry. T or more at the
+    /// entry is a hit there.
+    Clipped,
+}
+
+/// How a leaf is searched for the surface: section 3.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TraceOptions {
+    /// How the leaf test is read.
+    pub reading: Reading,
+    /// The search ends where |F − T| is at most this part of T. An f32 sum of a dozen kernels is
+    /// right to about 1e-6, so there is nothing to gain below.
+    pub tolerance: f32,
+    /// The search ends after this many steps, with the nearest point known to be inside.
+    pub max_iterations: u32,
+}
+
+impl TraceOptions {
+    /// Clipped, to 1e-5. False position gains half a bracket at the least in two steps when its
+    /// weights are halved (Illinois), so 64 steps take 2³² off the longest bracket, more than an
+    /// f32 holds; a handful is the rule.
+    pub const DEFAULT: Self =
+        Self { reading: Reading::Clipped, tolerance: 1e-5, max_iterations: 64 };
+}
+
+impl Default for TraceOptions {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// Finds first hits. Cheap to make; shares the tree and the field it was built from.
+#[derive(Debug)]
+pub struct Tracer<'a, F> {
+    tree: &'a Tree,
+    field: &'a F,
+    options: TraceOptions,
+}
+
+impl<'a, F: Field> Tracer<'a, F> {
+    /// A tracer for a tree of this very field: another one gives wrong pictures, or panics where
+    /// it has fewer balls.
+    pub fn new(tree: &'a Tree, field: &'a F, options: TraceOptions) -> Self {
+        Self { tree, field, options }
+    }
+
+    /// Where the ray first enters the solid.
+    pub fn first_hit(&self, ray: &Ray) -> Hit {
+        self.first_hit_counting(ray, &mut ())
+    }
+
+    /// First hits of many rays, in their order, on rayon's current pool.
+    pub fn first_hits(&self, rays: &[Ray]) -> Vec<Hit> {
+        const RAYS_PER_TASK: usize = 64;
+        rays.par_iter().with_min_len(RAYS_PER_TASK).map(|ray| self.first_hit(ray)).collect()
+    }
+
+    /// As [`Tracer::first_hit`], and tells the counter what it does. With `()` for a counter
+    /// nothing of that is compiled.
+    pub fn first_hit_counting(&self, ray: &Ray, counter: &mut impl Counter) -> Hit {
+        if let Some(leaf) = self.leaf_around(ray.origin)
+            && self.value(leaf, ray, 0.0, counter) >= self.field.threshold()
+        {
+            let normal = self.normal(leaf, ray, 0.0);
+            return Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal };
+        }
+        let found = match self.tree.kind {
+            Kind::ModifiedBvh => self.nearest_of_all(ray, counter),
+            Kind::Fitted => self.first_in_order(ray, counter),
+        };
+        found.map_or(Hit::MISS, |(leaf, t)| {
+            let normal = self.normal(leaf, ray, t);
+            Hit { verdict: Verdict::Hit, fallback: false, t, normal }
+        })
+    }
+
+    /// A leaf whose list is complete at the point, if the field can reach T there.
+    ///
+    /// Lists of the Fitted BVH are complete in the leaf's box. Those of the modified BVH are so in
+    /// the supports of the leaf's own balls.
+    fn leaf_around(&self, point: Vec3) -> Option<usize> {
+        if !self.tree.bounds.contains(point) {
+            return None;
+        }
+        let mut stack = Stack::new();
+        let mut next = self.tree.root;
+        loop {
+            match Child::read(next)? {
+                Child::Node(node) => {
+                    let node = &self.tree.nodes[node];
+                    let left = node.left_bounds().contains(point);
+                    let right = node.right_bounds().contains(point);
+                    next = match (left, right) {
+                        (true, true) => {
+                            stack.push(node.right, 0.0);
+                            node.left
+                        }
+                        (true, false) => node.left,
+                        (false, true) => node.right,
+                        (false, false) => stack.pop().0,
+                    };
+                }
+                Child::Leaf(leaf) => {
+                    let complete = match self.tree.kind {
+                        Kind::Fitted => true,
+                        Kind::ModifiedBvh => self.tree.leaf_balls(leaf).0.iter().any(|&ball| {
+                            let support = self.field.support(ball as usize);
+                            support.center.distance_squared(point) <= support.radius.powi(2)
+                        }),
+                    };
+                    if complete {
+                        return Some(leaf);
+                    }
+                    next = stack.pop().0;
+                }
+            }
+        }
+    }
+
+    /// The modified BVH: leaves overlap, so the nearest hit of all that the ray meets before it.
+    fn nearest_of_all(&self, ray: &Ray, counter: &mut impl Counter) -> Option<(usize, f32)> {
+        let slabs = Slabs::new(ray);
+        let mut limit = ray.t_max;
+        let mut found = None;
+        let mut stack = Stack::new();
+        slabs.crossing(&self.tree.bounds, limit)?;
+        let mut next = self.tree.root;
+        loop {
+            match Child::read(next) {
+                None => return found,
+                Some(Child::Node(node)) => {
+                    counter.node();
+                    let node = &self.tree.nodes[node];
+                    let left = slabs.crossing(&node.left_bounds(), limit);
+                    let right = slabs.crossing(&node.right_bounds(), limit);
+                    next = match (left, right) {
+                        (Some((left, _)), Some((right, _))) => {
+                            if left <= right {
+                                stack.push(node.right, right);
+                                node.left
+                            } else {
+                                stack.push(node.left, left);
+                                node.right
+                            }
+                        }
+                        (Some(_), None) => node.left,
+                        (None, Some(_)) => node.right,
+                        (None, None) => stack.pop_before(limit),
+                    };
+                }
+                Some(Child::Leaf(leaf)) => {
+                    // A hit beyond the limit cannot be the nearest, but the search must see beyond:
+                    // the bracket ends at a projection, which may lie behind the surface.
+                    if let Some(t) = self.search_own(leaf, ray, counter).filter(|&t| t < limit) {
+                        limit = t;
+                        found = Some((leaf, t));
+                    }
+                    next = stack.pop_before(limit);
+                }
+            }
+        }
+    }
+
+    /// The Fitted BVH: leaves do not overlap, so the first hit in the order of the ray.
+    fn first_in_order(&self, ray: &Ray, counter: &mut impl Counter) -> Option<(usize, f32)> {
+        let slabs = Slabs::new(ray);
+        let mut stack = Stack::new();
+        slabs.crossing(&self.tree.bounds, ray.t_max)?;
+        let mut next = self.tree.root;
+        loop {
+            match Child::read(next)? {
+                Child::Node(node) => {
+                    counter.node();
+                    let node = &self.tree.nodes[node];
+                    let left = slabs.crossing(&node.left_bounds(), ray.t_max);
+                    let right = slabs.crossing(&node.right_bounds(), ray.t_max);
+                    next = match (left, right) {
+                        (Some(_), Some(_)) => {
+                            if ray.direction[node.axis as usize] >= 0.0 {
+                                stack.push(node.right, 0.0);
+                                node.left
+                            } else {
+                                stack.push(node.left, 0.0);
+                                node.right
+                            }
+                        }
+                        (Some(_), None) => node.left,
+                        (None, Some(_)) => node.right,
+                        (None, None) => stack.pop().0,
+                    };
+                }
+                Child::Leaf(leaf) => {
+                    let bounds = self.tree.leaves[leaf].bounds();
+                    if let Some(stretch) = slabs.crossing(&bounds, ray.t_max)
+                        && let Some(t) = self.search_all(leaf, ray, stretch, counter)
+                    {
+                        return Some((leaf, t));
+                    }
+                    next = stack.pop().0;
+                }
+            }
+        }
+    }
+}
+
+/// Siblings to come back to, with the distance at which the ray enters them. [`MAX_DEPTH`] says why
+/// it cannot overflow.
+struct Stack {
+    entries: [(u32, f32); MAX_DEPTH],
+    height: usize,
+}
+
+impl Stack {
+    fn new() -> Self {
+        Self { entries: [(EMPTY, 0.0); MAX_DEPTH], height: 0 }
+    }
+
+    fn push(&mut self, reference: u32, entry: f32) {
+        self.entries[self.height] = (reference, entry);
+        self.height += 1;
+    }
+
+    /// The last sibling; [`EMPTY`] when there is none left.
+    fn pop(&mut self) -> (u32, f32) {
+        if self.height == 0 {
+            return (EMPTY, 0.0);
+        }
+        self.height -= 1;
+        self.entries[self.height]
+    }
+
+    /// The last sibling that the ray enters before the limit.
+    fn pop_before(&mut self, limit: f32) -> u32 {
+        loop {
+            let (reference, entry) = self.pop();
+            if reference == EMPTY || entry <= limit {
+                return reference;
+            }
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Measures metaball ray casters against an exact reference and each other: the library behind the
+//! binary `metaball`.
+//!
+//! [`contest`] is the heart: it takes a scene through all [`methods`], asks the oracle about the rays
+//! that the shaders used ([`reference`]), and yields a [`record`] for each. [`score`] holds the one
+//! set of definitions of what is wrong, [`measure`] those of what is fast. [`compare`] and [`render`]
+//! are the commands.
+
+pub mod compare;
+pub mod console;
+pub mod contest;
+pub mod heat;
+pub mod hits_exr;
+pub mod list;
+pub mod machine;
+pub mod measure;
+pub mod methods;
+pub mod output;
+pub mod picture;
+pub mod record;
+pub mod reference;
+pub mod render;
+pub mod report;
+pub mod score;
+pub mod stats;
+pub mod subset;

@@ -1,0 +1,241 @@
+//! The command line.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::str::FromStr;
+
+use bench_scenes::{LoadError, Overrides, kernel_named};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use harness::compare::{Comparison, DEFAULT_SCENES, compare};
+use harness::contest::Rules;
+use harness::methods::{METHODS, Method, find};
+use harness::picture::picture_named;
+use harness::render::{Order, render};
+use harness::{console, list};
+use metaball_core::Kernel;
+use metaball_core::gpu::{AdapterChoice, Picture};
+
+/// Ray casters of metaball isosurfaces on the GPU, compared with an exact reference.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Draw scenes with methods, hold the pictures against the reference, and write a page about it.
+    Compare {
+        /// Known names, generators such as scattered:50000, or scene and particle files.
+        #[arg(value_name = "SCENE", default_values = DEFAULT_SCENES)]
+        scenes: Vec<String>,
+        /// Methods, separated by commas; all when left out.
+        #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = method_parser())]
+        methods: Vec<&'static Method>,
+        /// Timed frames of each method on each scene.
+        #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u16).range(1..))]
+        frames: u16,
+        /// Time along the scene's camera path, where it has one.
+        #[arg(long)]
+        path: bool,
+        /// Compare every pixel, of large scenes too.
+        #[arg(long)]
+        every_pixel: bool,
+        /// Folder for index.html and records.json.
+        #[arg(long, value_name = "DIR", default_value = "out/compare")]
+        out: PathBuf,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Draw one picture.
+    Render {
+        /// A known name, a generator such as scattered:50000, or a scene or particle file.
+        scene: String,
+        /// The method.
+        #[arg(long, value_name = "NAME", default_value = "fbvh", value_parser = method_parser())]
+        method: &'static Method,
+        /// Where the PNG goes.
+        #[arg(long, value_name = "FILE", default_value = "out/image.png")]
+        out: PathBuf,
+        /// Write distances (Z) and normals (N.X, N.Y, N.Z) as f32 channels of an OpenEXR file too.
+        #[arg(long, value_name = "FILE")]
+        hits: Option<PathBuf>,
+        /// What the picture shows: phong, normal, depth, color, spheres, or work:COUNTER.
+        #[arg(long, value_name = "WHAT", default_value = "phong", value_parser = picture_named)]
+        picture: Picture,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// List the known scenes and the generators.
+    Scenes,
+    /// List the methods.
+    Methods,
+}
+
+/// What every drawing command takes.
+#[derive(Debug, Args)]
+struct Common {
+    /// Pixels across and down.
+    #[arg(long, value_name = "WxH", default_value = "640x480")]
+    size: Size,
+    /// Draw with the adapter that has this in its name.
+    #[arg(long, value_name = "NAME", conflicts_with = "software")]
+    adapter: Option<String>,
+    /// Draw with an adapter that computes on the CPU.
+    #[arg(long)]
+    software: bool,
+    /// Kernel in place of the scene's own: power, wyvill or perlin.
+    #[arg(long, value_name = "NAME", value_parser = kernel)]
+    kernel: Option<Kernel>,
+    /// Exponent of a power kernel, 1 to 8.
+    #[arg(long, value_name = "N")]
+    exponent: Option<i64>,
+    /// Threshold in place of the scene's own.
+    #[arg(long, value_name = "T")]
+    threshold: Option<f32>,
+}
+
+/// A picture's size in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Size(u32, u32);
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        text.split_once('x')
+            .and_then(|(width, height)| Some(Self(width.parse().ok()?, height.parse().ok()?)))
+            .filter(|size| size.0 > 0 && size.1 > 0)
+            .ok_or_else(|| "needed WIDTHxHEIGHT in pixels, such as 640x480".to_owned())
+    }
+}
+
+impl Common {
+    fn size(&self) -> (u32, u32) {
+        (self.size.0, self.size.1)
+    }
+
+    fn adapter(&self) -> AdapterChoice {
+        match &self.adapter {
+            Some(name) => AdapterChoice::Named(name.clone()),
+            None if self.software => AdapterChoice::Software,
+            None => AdapterChoice::Environment,
+        }
+    }
+
+    fn overrides(&self) -> Overrides {
+        Overrides { kernel: self.kernel, exponent: self.exponent, threshold: self.threshold }
+    }
+}
+
+fn kernel(name: &str) -> Result<Kernel, LoadError> {
+    kernel_named(name, None)
+}
+
+/// A method by name; an unknown one is answered with the list.
+fn method_parser() -> impl TypedValueParser<Value = &'static Method> {
+    let names = METHODS.iter().map(|method| PossibleValue::new(method.name).help(method.title));
+    PossibleValuesParser::new(names).map(|name| find(&name).expect("only names of methods pass"))
+}
+
+fn main() -> ExitCode {
+    match run(Cli::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            console::note(&format!("metaball: {error:#}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(command: Command) -> anyhow::Result<()> {
+    match command {
+        Command::Compare { scenes, methods, frames, path, every_pixel, out, common } => {
+            let all = || METHODS.iter().collect();
+            let rules = Rules {
+                methods: if methods.is_empty() { all() } else { methods },
+                size: common.size(),
+                frames: frames.into(),
+                along_path: path,
+                every_pixel,
+            };
+            let (overrides, adapter) = (common.overrides(), common.adapter());
+            compare(&Comparison { scenes, overrides, rules, adapter, out })
+        }
+        Command::Render { scene, method, out, hits, picture, common } => {
+            let (overrides, adapter) = (common.overrides(), common.adapter());
+            let size = common.size();
+            render(&Order { scene, overrides, method, size, picture, adapter, out, hits })
+        }
+        Command::Scenes => {
+            list::scenes();
+            Ok(())
+        }
+        Command::Methods => {
+            list::methods();
+            Ok(())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    fn parse(line: &str) -> Result<Command, clap::Error> {
+        Cli::try_parse_from(line.split_whitespace()).map(|cli| cli.command)
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn compare_has_the_documented_defaults() {
+        let Ok(Command::Compare { scenes, methods, frames, out, common, .. }) =
+            parse("metaball compare")
+        else {
+            panic!("compare needs no arguments");
+        };
+        assert_eq!(scenes, DEFAULT_SCENES);
+        assert_eq!(scenes[0], "molecule");
+        assert!(methods.is_empty() && frames >= 1);
+        assert_eq!((common.size(), out), ((640, 480), PathBuf::from("out/compare")));
+        assert_eq!(common.adapter(), AdapterChoice::Environment);
+        assert_eq!(common.overrides(), Overrides::default());
+    }
+
+    #[test]
+    fn arguments_are_taken() {
+        let line = "metaball compare a.pdb scattered:500 --methods bvh,fbvh --size 32x24 --frames 2 \
+                    --kernel wyvill --exponent 3 --threshold 0.5 --adapter llvm";
+        let Ok(Command::Compare { scenes, methods, frames, common, .. }) = parse(line) else {
+            panic!("a legal command line");
+        };
+        assert_eq!(scenes, ["a.pdb", "scattered:500"]);
+        let names: Vec<_> = methods.iter().map(|method| method.name).collect();
+        assert_eq!((names.as_slice(), frames), (&["bvh", "fbvh"][..], 2));
+        assert_eq!(common.size(), (32, 24));
+        assert_eq!(common.adapter(), AdapterChoice::Named("llvm".to_owned()));
+        let wanted =
+            Overrides { kernel: Some(Kernel::Wyvill), exponent: Some(3), threshold: Some(0.5) };
+        assert_eq!(common.overrides(), wanted);
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let message = |line| parse(line).expect_err("a mistake").to_string();
+        assert!(message("metaball compare --methods nosuch").contains("bvh"));
+        assert!(message("metaball compare --size 640").contains("WIDTHxHEIGHT"));
+        assert!(message("metaball compare --size 0x480").contains("WIDTHxHEIGHT"));
+        assert!(message("metaball compare --frames 0").contains("--frames"));
+        assert!(message("metaball render molecule --picture nosuch").contains("work:"));
+        assert!(message("metaball compare --kernel gauss").contains("wyvill or perlin"));
+        assert!(parse("metaball render").is_err());
+    }
+}

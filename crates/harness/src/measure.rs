@@ -1,0 +1,207 @@
+//! Drawing with methods and timing them: warm before timing, one after the other in turn, never from
+//! the same place twice.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use metaball_core::gpu::{self, BuildReport, Gpu, IsoRenderer, RenderError, Targets};
+use metaball_core::{Aabb, Camera, Hit, Scene, View, ViewError};
+
+use crate::methods::Method;
+use crate::record::{Samples, WorkPerRay};
+use crate::stats::median;
+
+/// A method that has built its structure for a scene and drawn it once: warm, and with all the room
+/// that its first frame needed.
+pub struct Contender {
+    /// Which method.
+    pub method: &'static Method,
+    /// What building took.
+    pub build: BuildReport,
+    /// What it found in its first frame, row by row from the top left.
+    pub hits: Vec<Hit>,
+    renderer: Box<dyn IsoRenderer>,
+}
+
+/// Times of complete frames.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timing {
+    /// Wall time of each frame, from the start of encoding to the fence.
+    pub frame_ms: Samples,
+    /// Median milliseconds of each pass, over the frames that have it.
+    pub passes: BTreeMap<String, f64>,
+}
+
+impl Contender {
+    /// Builds for the scene and draws the view into the targets, without counting work.
+    ///
+    /// # Errors
+    /// When the method cannot do the scene, or its frame stays incomplete.
+    pub fn prepare(
+        gpu: &Gpu,
+        method: &'static Method,
+        scene: &Scene,
+        targets: &Targets,
+        view: &View,
+    ) -> Result<Self, RenderError> {
+        let mut renderer = (method.make)(false);
+        let build = renderer.build(gpu, scene)?;
+        gpu::render(gpu, renderer.as_mut(), targets, view)?;
+        let hits = targets.read_hits(gpu)?;
+        Ok(Self { method, build, hits, renderer })
+    }
+}
+
+/// Draws every view with every contender, in turn: A B A B, so that a machine that grows hot or busy
+/// is so for all. A contender that fails has an error in its place and is not drawn again. Calls
+/// `after_frame` after each frame.
+pub fn time_all(
+    gpu: &Gpu,
+    contenders: &mut [Contender],
+    targets: &Targets,
+    views: &[View],
+    mut after_frame: impl FnMut(),
+) -> Vec<Result<Timing, RenderError>> {
+    let mut frames: Vec<Result<Frames, RenderError>> =
+        contenders.iter().map(|_| Ok(Frames::default())).collect();
+    for view in views {
+        for (contender, frames) in contenders.iter_mut().zip(&mut frames) {
+            if let Ok(taken) = frames {
+                match gpu::render(gpu, contender.renderer.as_mut(), targets, view) {
+                    Ok(report) => taken.add(report.wall, &report.passes),
+                    Err(error) => *frames = Err(error),
+                }
+            }
+            after_frame();
+        }
+    }
+    frames.into_iter().map(|frames| frames.map(Frames::summary)).collect()
+}
+
+/// Draws one frame that counts its work, with a renderer of its own: counting slows a shader down.
+///
+/// # Errors
+/// As [`Contender::prepare`].
+pub fn count_work(
+    gpu: &Gpu,
+    method: &Method,
+    scene: &Scene,
+    view: &View,
+) -> Result<WorkPerRay, RenderError> {
+    let mut renderer = (method.make)(true);
+    renderer.build(gpu, scene)?;
+    let colors = scene.colors().is_some();
+    let targets = Targets::new(gpu, view.width(), view.height(), colors, true)?;
+    gpu::render(gpu, renderer.as_mut(), &targets, view)?;
+    let work = targets.read_work(gpu)?.unwrap_or_default();
+    Ok(WorkPerRay::mean(&work))
+}
+
+/// The views to time a scene from: along the path, or at `camera` where there is none, each moved by
+/// up to two pixels, so that no frame is the one before. The same for every call.
+///
+/// # Errors
+/// When the size is no image size.
+pub fn views(
+    camera: &Camera,
+    path: &[Camera],
+    bounds: &Aabb,
+    (width, height): (u32, u32),
+    count: usize,
+) -> Result<Vec<View>, ViewError> {
+    let view = |sample: usize| {
+        let camera = match path {
+            [] => camera,
+            path => &path[sample * path.len() / count],
+        };
+        let (right, up) = shift(sample + 1);
+        let reach = 4.0 * pixel_at(camera, bounds, height);
+        View::new(camera.shifted(right * reach, up * reach), width, height)
+    };
+    (0..count).map(view).collect()
+}
+
+/// An even spread of points over the square from −½ to ½: multiples of the inverse of the plastic
+/// number and of its square, modulo 1.
+fn shift(index: usize) -> (f32, f32) {
+    let share = |step: f64| ((index as f64 * step).fract() - 0.5) as f32;
+    (share(0.754_877_666), share(0.569_840_291))
+}
+
+/// A pixel's height where the scene is, scene units; enough for the camera to move at all.
+fn pixel_at(camera: &Camera, bounds: &Aabb, height: u32) -> f32 {
+    let distance = if bounds.is_empty() {
+        1.0
+    } else {
+        camera.eye().distance(bounds.center()).max(0.5 * bounds.extent().length())
+    };
+    let pixel = 2.0 * camera.half_height() * distance / height as f32;
+    pixel.max(2.0 * f32::EPSILON * camera.eye().abs().max_element())
+}
+
+#[derive(Default)]
+struct Frames {
+    wall_ms: Vec<f64>,
+    passes_ms: BTreeMap<String, Vec<f64>>,
+}
+
+impl Frames {
+    fn add(&mut self, wall: Duration, passes: &[(String, Duration)]) {
+        self.wall_ms.push(milliseconds(wall));
+        for (label, time) in passes {
+            self.passes_ms.entry(label.clone()).or_default().push(milliseconds(*time));
+        }
+    }
+
+    fn summary(self) -> Timing {
+        let passes = self
+            .passes_ms
+            .into_iter()
+            .filter_map(|(label, times)| Some((label, median(&times)?)))
+            .collect();
+        Timing { frame_ms: Samples::new(self.wall_ms), passes }
+    }
+}
+
+/// A duration in milliseconds.
+pub fn milliseconds(duration: Duration) -> f64 {
+    1e3 * duration.as_secs_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    #[test]
+    fn frames_are_summed_up_by_pass() {
+        let mut frames = Frames::default();
+        let ms = Duration::from_millis;
+        frames.add(ms(10), &[("rays".into(), ms(1)), ("trace".into(), ms(9))]);
+        frames.add(ms(30), &[("rays".into(), ms(3)), ("trace".into(), ms(27))]);
+        frames.add(ms(20), &[("rays".into(), ms(2))]);
+        let timing = frames.summary();
+        assert_eq!(timing.frame_ms.median, 20.0);
+        assert_eq!(timing.frame_ms.samples, [10.0, 30.0, 20.0]);
+        let passes = [("rays".to_owned(), 2.0), ("trace".to_owned(), 18.0)];
+        assert_eq!(timing.passes, BTreeMap::from(passes));
+    }
+
+    #[test]
+    fn no_view_is_the_one_before() {
+        for far in [0.0, 1e6] {
+            let bounds = Aabb::around_sphere(Vec3::splat(far), 1.0);
+            let camera = Camera::framing(&bounds, Vec3::Z);
+            let path = [camera, camera.shifted(10.0, 0.0)];
+            for path in [&path[..], &[]] {
+                let views = views(&camera, path, &bounds, (64, 48), 12).expect("a size");
+                let eyes: Vec<_> = views.iter().map(|view| view.camera().eye()).collect();
+                assert_eq!(eyes.len(), 12);
+                assert!(eyes.windows(2).all(|pair| pair[0] != pair[1]));
+                let moved = eyes[0].distance(eyes[11]);
+                assert_eq!(moved > 5.0, !path.is_empty(), "{moved}");
+            }
+        }
+    }
+}

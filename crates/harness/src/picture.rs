@@ -1,0 +1,76 @@
+//! Pictures: their names on the command line, and PNG.
+
+use std::io::Cursor;
+
+use anyhow::Context;
+use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use metaball_core::gpu::{Image, Picture, WorkKind};
+
+/// Encodes an image as PNG: eight bits a channel, sRGB.
+///
+/// # Errors
+/// When the image's size and its bytes do not agree.
+pub fn encode_png(image: &Image) -> anyhow::Result<Vec<u8>> {
+    let needed = image.width as usize * image.height as usize * 4;
+    anyhow::ensure!(
+        image.rgba.len() == needed,
+        "picture of {} × {}: needed {needed} bytes, found {}",
+        image.width,
+        image.height,
+        image.rgba.len()
+    );
+    let mut png = Cursor::new(Vec::new());
+    PngEncoder::new(&mut png)
+        .write_image(&image.rgba, image.width, image.height, ExtendedColorType::Rgba8)
+        .context("cannot encode a PNG")?;
+    Ok(png.into_inner())
+}
+
+/// The picture of that name: `phong`, `normal`, `depth`, `color`, `spheres`, or `work:` and a counter
+/// such as `work:leaf-tests`.
+///
+/// # Errors
+/// When there is none; lists them all.
+pub fn picture_named(name: &str) -> Result<Picture, String> {
+    names().find_map(|(known, picture)| (known == name).then_some(picture)).ok_or_else(|| {
+        let known: Vec<_> = names().map(|(known, _)| known).collect();
+        format!("needed one of {}", known.join(", "))
+    })
+}
+
+fn names() -> impl Iterator<Item = (String, Picture)> {
+    let plain = [
+        ("phong", Picture::Phong),
+        ("normal", Picture::Normal),
+        ("depth", Picture::Depth),
+        ("color", Picture::Color),
+        ("spheres", Picture::Spheres),
+    ];
+    let work = WorkKind::ALL
+        .map(|kind| (format!("work:{}", kind.to_string().replace(' ', "-")), Picture::Work(kind)));
+    plain.map(|(name, picture)| (name.to_owned(), picture)).into_iter().chain(work)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_have_names() {
+        assert_eq!(picture_named("phong"), Ok(Picture::Phong));
+        assert_eq!(picture_named("work:leaf-tests"), Ok(Picture::Work(WorkKind::LeafTests)));
+        let error = picture_named("work").expect_err("no counter named");
+        assert!(error.contains("spheres, work:nodes"), "{error}");
+    }
+
+    #[test]
+    fn a_png_reads_back() {
+        let rgba = vec![255, 0, 0, 255, 0, 128, 0, 255];
+        let image = Image { width: 2, height: 1, rgba };
+        let png = encode_png(&image).expect("encoded");
+        let back = image::load_from_memory(&png).expect("a PNG").into_rgba8();
+        assert_eq!((back.dimensions(), back.into_raw()), ((2, 1), image.rgba.clone()));
+        let broken = Image { width: 2, height: 2, ..image };
+        assert!(encode_png(&broken).is_err());
+    }
+}

@@ -1,0 +1,338 @@
+//! `records.json`: one record for each scene and method, with raw samples and where they come
+//! from.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::Context;
+use metaball_core::gpu::{AdapterReport, Work};
+use serde::{Deserialize, Serialize};
+
+use crate::machine::Machine;
+use crate::output::write_atomically;
+use crate::score::Accuracy;
+use crate::stats::{quantile, sorted};
+
+/// Name and version of the format that [`Records`] describes. It changes with the meaning or the
+/// name of any key.
+pub const SCHEMA: &str = "metaball-records/1";
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Records {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// The command that made the file.
+    pub command: String,
+    /// The commit that it was built from, or `unknown`.
+    pub commit: String,
+    /// The computer it ran on.
+    pub machine: Machine,
+    /// In the order of scenes, then methods.
+    pub records: Vec<Record>,
+}
+
+impl Records {
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, path: &Path) -> anyhow::Result<()> {
+        let mut text = serde_json::to_string_pretty(self).context("records: no JSON")?;
+        text.push('\n');
+        write_atomically(path, text.as_bytes())
+    }
+}
+
+/// One method on one scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Name of the scene.
+    pub scene: String,
+    /// Number of balls.
+    pub balls: usize,
+    /// Kernel: `power-2`, `wyvill`, `perlin`.
+    pub kernel: String,
+    /// T.
+    pub threshold: f32,
+    /// Name of the method.
+    pub method: String,
+    /// What of the method was set otherwise than by default.
+    pub options: BTreeMap<String, String>,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// What drew.
+    pub adapter: Adapter,
+    /// Whether there is a result.
+    pub status: Status,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// The result; its keys stand beside those above, and are missing when there is none.
+    #[serde(flatten)]
+    pub measured: Option<Measured>,
+}
+
+/// Whether a method has a result on a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// Drawn whole, compared and timed.
+    Ok,
+    /// A frame stayed incomplete however much room the method made.
+    Incomplete,
+    /// The method or the adapter cannot do this scene.
+    Unsupported,
+}
+
+/// The adapter that drew.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Adapter {
+    /// As the driver names it.
+    pub name: String,
+    /// `vulkan`, `metal`, `dx12`.
+    pub backend: String,
+    /// Driver and version.
+    pub driver: String,
+}
+
+impl From<&AdapterReport> for Adapter {
+    fn from(report: &AdapterReport) -> Self {
+        Self {
+            name: report.name.clone(),
+            backend: report.backend.clone(),
+            driver: report.driver.clone(),
+        }
+    }
+}
+
+/// What was measured of complete frames.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    /// Making all that depends on the scene alone, pipelines included, milliseconds.
+    pub build_ms: f64,
+    /// Bytes sent to the device by the build.
+    pub upload_bytes: u64,
+    /// Bytes that the method holds on the device.
+    pub device_bytes: u64,
+    /// From the start of encoding to the fence.
+    pub frame_ms: Samples,
+    /// Median milliseconds of each labelled pass, summed over its repeats in a frame; `cpu:` labels
+    /// are host phases.
+    pub passes: BTreeMap<String, f64>,
+    /// Pixels that a published rule for trouble made.
+    pub fallback_pixels: u64,
+    /// Pixels for which the method could not tell.
+    pub undecided_pixels: u64,
+    /// Comparison with the reference.
+    pub accuracy: Accuracy,
+    /// Work a ray, from a frame of its own that is not timed.
+    pub work: WorkPerRay,
+}
+
+/// Repeated measurements of one quantity, milliseconds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Samples {
+    /// The middle.
+    pub median: f64,
+    /// A quarter lies below.
+    pub p25: f64,
+    /// Three quarters lie below.
+    pub p75: f64,
+    /// All, in the order taken.
+    pub samples: Vec<f64>,
+}
+
+impl Samples {
+    /// Summarises; zeros of no samples.
+    pub fn new(samples: Vec<f64>) -> Self {
+        let rising = sorted(samples.clone());
+        let at = |share| quantile(&rising, share).unwrap_or(0.0);
+        Self { median: at(0.5), p25: at(0.25), p75: at(0.75), samples }
+    }
+}
+
+/// Work counters averaged over all rays of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WorkPerRay {
+    /// Nodes of a hierarchy visited.
+    pub nodes_per_ray: f64,
+    /// Leaves tested for a hit.
+    pub leaf_tests_per_ray: f64,
+    /// Balls considered.
+    pub balls_per_ray: f64,
+    /// Evaluations of the field.
+    pub evaluations_per_ray: f64,
+}
+
+impl WorkPerRay {
+    /// The mean of the pixels' counters; zero of no pixels.
+    pub fn mean(pixels: &[Work]) -> Self {
+        let mean = |counter: fn(&Work) -> u32| {
+            let sum: u64 = pixels.iter().map(|work| u64::from(counter(work))).sum();
+            sum as f64 / pixels.len().max(1) as f64
+        };
+        Self {
+            nodes_per_ray: mean(|work| work.nodes),
+            leaf_tests_per_ray: mean(|work| work.leaf_tests),
+            balls_per_ray: mean(|work| work.balls),
+            evaluations_per_ray: mean(|work| work.evaluations),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::score::{NormalDegrees, RadiusError};
+
+    fn measured() -> Measured {
+        Measured {
+            build_ms: 1.5,
+            upload_bytes: 10,
+            device_bytes: 20,
+            frame_ms: Samples::new(vec![3.0, 1.0, 2.0]),
+            passes: BTreeMap::from([("trace".to_owned(), 0.5)]),
+            fallback_pixels: 0,
+            undecided_pixels: 0,
+            accuracy: Accuracy {
+                rays: 4,
+                oracle_hits: 2,
+                false_negative: 0,
+                false_positive: 0,
+                wrong_front: 0,
+                ambiguous: 1,
+                rel_rms_t: Some(1e-6),
+                t_error_over_radius: Some(RadiusError { p50: 1e-7, p99: 1e-6, max: 1e-5 }),
+                normal_degrees: Some(NormalDegrees { mean: 0.01, p99: 0.1, max: 0.2 }),
+                subset: "every pixel".to_owned(),
+            },
+            work: WorkPerRay::mean(&[]),
+        }
+    }
+
+    fn record(status: Status, reason: Option<&str>, measured: Option<Measured>) -> Record {
+        Record {
+            scene: "molecule".to_owned(),
+            balls: 5_547,
+            kernel: "power-2".to_owned(),
+            threshold: 0.25,
+            method: "bvh".to_owned(),
+            options: BTreeMap::new(),
+            width: 640,
+            height: 480,
+            adapter: Adapter {
+                name: "llvmpipe".to_owned(),
+                backend: "vulkan".to_owned(),
+                driver: "mesa".to_owned(),
+            },
+            status,
+            reason: reason.map(str::to_owned),
+            measured,
+        }
+    }
+
+    fn keys(value: &Value) -> Vec<&str> {
+        let mut keys: Vec<_> =
+            value.as_object().expect("an object").keys().map(String::as_str).collect();
+        keys.sort_unstable();
+        keys
+    }
+
+    #[test]
+    fn a_record_has_the_documented_keys() {
+        let value = serde_json::to_value(record(Status::Ok, None, Some(measured())))
+            .expect("records are JSON");
+        let mut documented = vec![
+            "scene",
+            "balls",
+            "kernel",
+            "threshold",
+            "method",
+            "options",
+            "width",
+            "height",
+            "adapter",
+            "status",
+            "build_ms",
+            "upload_bytes",
+            "device_bytes",
+            "frame_ms",
+            "passes",
+            "fallback_pixels",
+            "undecided_pixels",
+            "accuracy",
+            "work",
+        ];
+        documented.sort_unstable();
+        assert_eq!(keys(&value), documented);
+        assert_eq!(value["status"], json!("ok"));
+        assert_eq!(keys(&value["adapter"]), ["backend", "driver", "name"]);
+        assert_eq!(keys(&value["frame_ms"]), ["median", "p25", "p75", "samples"]);
+        assert_eq!(value["frame_ms"]["samples"], json!([3.0, 1.0, 2.0]));
+        assert_eq!(value["passes"], json!({"trace": 0.5}));
+        assert_eq!(
+            keys(&value["accuracy"]),
+            [
+                "ambiguous",
+                "false_negative",
+                "false_positive",
+                "normal_degrees",
+                "oracle_hits",
+                "rays",
+                "rel_rms_t",
+                "subset",
+                "t_error_over_radius",
+                "wrong_front",
+            ]
+        );
+        assert_eq!(keys(&value["accuracy"]["t_error_over_radius"]), ["max", "p50", "p99"]);
+        assert_eq!(keys(&value["accuracy"]["normal_degrees"]), ["max", "mean", "p99"]);
+        assert_eq!(
+            keys(&value["work"]),
+            ["balls_per_ray", "evaluations_per_ray", "leaf_tests_per_ray", "nodes_per_ray"]
+        );
+    }
+
+    #[test]
+    fn the_file_reads_back() {
+        let records = Records {
+            schema: SCHEMA.to_owned(),
+            command: "metaball compare".to_owned(),
+            commit: "unknown".to_owned(),
+            machine: Machine {
+                cpu: "one".to_owned(),
+                cores: 2,
+                memory_bytes: None,
+                os: "linux".to_owned(),
+            },
+            records: vec![
+                record(Status::Ok, None, Some(measured())),
+                record(Status::Unsupported, Some("needs 2 bytes, the limit is 1"), None),
+            ],
+        };
+        let folder = crate::output::tests::scratch("records");
+        let path = folder.join("records.json");
+        records.write(&path).expect("written");
+        let text = std::fs::read_to_string(&path).expect("readable");
+        std::fs::remove_dir_all(folder).expect("removable");
+        let back: Records = serde_json::from_str(&text).expect("as written");
+        assert_eq!(back, records);
+
+        let value: Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(keys(&value), ["command", "commit", "machine", "records", "schema"]);
+        assert_eq!(value["records"][1]["status"], json!("unsupported"));
+        assert_eq!(value["records"][1].get("frame_ms"), None);
+    }
+
+    #[test]
+    fn samples_summarise() {
+        let samples = Samples::new(vec![4.0, 1.0, 3.0, 2.0, 5.0]);
+        assert_eq!((samples.p25, samples.median, samples.p75), (2.0, 3.0, 4.0));
+        assert!(Samples::new(Vec::new()).samples.is_empty());
+    }
+}

@@ -1,0 +1,145 @@
+//! The oracle's answers for one picture, for every pixel or a stated part of them.
+
+use metaball_core::reference::{Oracle, Truth};
+use metaball_core::{Hit, Ray};
+
+use crate::subset::Subset;
+
+/// The truth along some rays of an image.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    width: u32,
+    height: u32,
+    /// Rising indices of the pixels that `truths` is about.
+    pixels: Vec<usize>,
+    truths: Vec<Truth>,
+    subset: String,
+}
+
+/// A large picture is always scored on every fourth pixel across and down.
+const STRIDE: usize = 4;
+
+impl Reference {
+    /// From the truths of all pixels, row by row from the top left.
+    ///
+    /// # Panics
+    /// When there are not width times height of them.
+    pub fn of_every_pixel(width: u32, height: u32, truths: Vec<Truth>) -> Self {
+        let pixels = width as usize * height as usize;
+        assert_eq!(truths.len(), pixels, "a truth for each pixel");
+        let subset = "every pixel".to_owned();
+        Self { width, height, pixels: (0..pixels).collect(), truths, subset }
+    }
+
+    /// Asks the oracle about a lattice of pixels, every pixel where two of the images disagree, and
+    /// two pixels around every edge that an image or the oracle's lattice shows. `rays` are those of
+    /// all pixels; `radius` is the smallest support radius of the scene.
+    pub fn of_telling_pixels(
+        oracle: &Oracle<'_>,
+        rays: &[Ray],
+        (width, height): (u32, u32),
+        images: &[&[Hit]],
+        radius: f32,
+    ) -> Self {
+        let lattice = Subset::lattice(width, height, STRIDE);
+        let coarse_pixels: Vec<_> = lattice.pixels().collect();
+        let coarse_truths = ask(oracle, rays, &coarse_pixels);
+
+        let mut wanted = Subset::empty(width, height);
+        wanted.add_disagreements(images, radius);
+        for image in images {
+            wanted.add_edges(image, radius, 1);
+        }
+        let mut coarse_image = vec![Hit::MISS; rays.len()];
+        for (&pixel, truth) in coarse_pixels.iter().zip(&coarse_truths) {
+            coarse_image[pixel] = as_hit(truth);
+        }
+        wanted.add_edges(&coarse_image, radius, STRIDE);
+
+        let more: Vec<_> = wanted.pixels().filter(|&pixel| !lattice.contains(pixel)).collect();
+        let more_truths = ask(oracle, rays, &more);
+        let mut answers: Vec<_> = coarse_pixels
+            .into_iter()
+            .zip(coarse_truths)
+            .chain(more.into_iter().zip(more_truths))
+            .collect();
+        answers.sort_unstable_by_key(|&(pixel, _)| pixel);
+        let (pixels, truths) = answers.into_iter().unzip();
+        let subset = format!(
+            "every {STRIDE}th pixel across and down, every pixel where two methods disagree, and \
+             two pixels around every edge of a method or of the reference's lattice"
+        );
+        Self { width, height, pixels, truths, subset }
+    }
+
+    /// Pixels across.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Pixels of the image, of which [`Reference::rays`] may be a part.
+    pub fn image_pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// The truths, in the order of [`Reference::rays`].
+    pub fn truths(&self) -> &[Truth] {
+        &self.truths
+    }
+
+    /// Index of the pixel and truth of each ray, by rising index.
+    pub fn rays(&self) -> impl ExactSizeIterator<Item = (usize, &Truth)> {
+        self.pixels.iter().copied().zip(&self.truths)
+    }
+
+    /// Which rays these are, in words.
+    pub fn subset(&self) -> &str {
+        &self.subset
+    }
+
+    /// Whether no pixel is left out.
+    pub fn is_complete(&self) -> bool {
+        self.pixels.len() == self.image_pixels()
+    }
+
+    /// The image to look at: a pixel without an answer shows that of the middle of its lattice cell.
+    pub fn hits(&self) -> Vec<Hit> {
+        let mut answers = vec![None; self.image_pixels()];
+        for (pixel, truth) in self.rays() {
+            answers[pixel] = Some(as_hit(truth));
+        }
+        let (width, height) = (self.width as usize, self.height as usize);
+        let show = |pixel: usize| {
+            let (row, column) = (middle(pixel / width, height), middle(pixel % width, width));
+            answers[pixel].or(answers[row * width + column]).unwrap_or(Hit::MISS)
+        };
+        (0..answers.len()).map(show).collect()
+    }
+}
+
+/// The lattice coordinate of the cell that a coordinate below `end` lies in; cells cut off at the
+/// end have none and take the one before.
+fn middle(coordinate: usize, end: usize) -> usize {
+    let middle = coordinate / STRIDE * STRIDE + STRIDE / 2;
+    if middle < end { middle } else { middle.saturating_sub(STRIDE) }
+}
+
+fn ask(oracle: &Oracle<'_>, rays: &[Ray], pixels: &[usize]) -> Vec<Truth> {
+    let rays: Vec<_> = pixels.iter().map(|&pixel| rays[pixel]).collect();
+    oracle.first_hits(&rays)
+}
+
+/// The truth rounded to what a method would write.
+fn as_hit(truth: &Truth) -> Hit {
+    Hit {
+        verdict: truth.verdict,
+        fallback: false,
+        t: truth.t as f32,
+        normal: truth.normal.as_vec3(),
+    }
+}

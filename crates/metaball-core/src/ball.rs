@@ -1,0 +1,52 @@
+//! Metaballs, their support spheres and their colours.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+/// One metaball: it adds `strength * kernel(|x - center|² / radius²)` to the field and nothing
+/// outside its support sphere. pᵢ, Rᵢ and qᵢ of the papers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Metaball {
+    /// Centre, world space, scene units.
+    pub center: Vec3,
+    /// Support radius R > 0, scene units: the kernel is zero from here on.
+    pub radius: f32,
+    /// Strength q > 0, the field's value at the centre of the ball alone; no unit.
+    pub strength: f32,
+}
+
+impl Metaball {
+    /// A ball of strength 1.
+    pub const fn new(center: Vec3, radius: f32) -> Self {
+        Self { center, radius, strength: 1.0 }
+    }
+}
+
+/// Where a metaball's field may be positive. Sixteen bytes, laid out as WGSL's
+/// `struct Support { center: vec3<f32>, radius: f32 }`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Support {
+    /// Centre, world space, scene units.
+    pub center: Vec3,
+    /// Support radius R, scene units, positive.
+    pub radius: f32,
+}
+
+/// An opaque colour, sRGB-encoded, eight bits a channel; the fourth byte is always 255, so that a
+/// colour is one `u32` for WGSL's `unpack4x8unorm`.
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+pub struct Color([u8; 4]);
+
+impl Color {
+    /// From sRGB-encoded channels.
+    pub const fn srgb(red: u8, green: u8, blue: u8) -> Self {
+        Self([red, green, blue, 255])
+    }
+
+    /// The sRGB-encoded channels: red, green, blue.
+    pub const fn to_srgb(self) -> [u8; 3] {
+        [self.0[0], self.0[1], self.0[2]]
+    }
+}

@@ -1,0 +1,318 @@
+//! Pinhole cameras, and views: a camera with an image size.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+use thiserror::Error;
+
+use crate::Aabb;
+
+/// A pinhole camera in a right-handed world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    eye: Vec3,
+    right: Vec3,
+    up: Vec3,
+    forward: Vec3,
+    half_height: f32,
+}
+
+/// Why something is no camera.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// A vector has a NaN or infinite coordinate.
+    #[error("camera {name}: needed finite coordinates, found {found}")]
+    NotFinite {
+        /// `eye`, `look_at` or `up`.
+        name: &'static str,
+        /// The vector.
+        found: Vec3,
+    },
+    /// The vertical field of view is out of range.
+    #[error("camera vertical_fov_degrees: needed an angle above 0 and below 180, found {found}")]
+    FieldOfView {
+        /// The angle in degrees.
+        found: f32,
+    },
+    /// The eye is where it looks.
+    #[error("camera: needed an eye apart from look_at, found both at {found}")]
+    NoDirection {
+        /// The common point.
+        found: Vec3,
+    },
+    /// The up vector is zero or parallel to the direction of view.
+    #[error("camera up: needed a vector that is not along the view direction, found {found}")]
+    Up {
+        /// The up vector.
+        found: Vec3,
+    },
+}
+
+impl Camera {
+    /// A camera at `eye` that sees `look_at` in the middle of its picture. `up` points upwards in
+    /// the picture; it need be neither unit nor perpendicular. The field of view is the angle
+    /// between the top and the bottom edge.
+    ///
+    /// # Errors
+    /// Names the argument that makes no camera.
+    pub fn look_at(
+        eye: Vec3,
+        look_at: Vec3,
+        up: Vec3,
+        vertical_fov_degrees: f32,
+    ) -> Result<Self, CameraError> {
+        for (name, found) in [("eye", eye), ("look_at", look_at), ("up", up)] {
+            if !found.is_finite() {
+                return Err(CameraError::NotFinite { name, found });
+            }
+        }
+        if !(vertical_fov_degrees > 0.0 && vertical_fov_degrees < 180.0) {
+            return Err(CameraError::FieldOfView { found: vertical_fov_degrees });
+        }
+        let forward = (look_at.as_dvec3() - eye.as_dvec3())
+            .try_normalize()
+            .ok_or(CameraError::NoDirection { found: eye })?;
+        let right = up
+            .as_dvec3()
+            .try_normalize()
+            .map(|up| forward.cross(up))
+            .filter(|right| right.length() > 1e-6)
+            .ok_or(CameraError::Up { found: up })?
+            .normalize();
+        let half_height = (0.5 * f64::from(vertical_fov_degrees)).to_radians().tan();
+        Ok(Self {
+            eye,
+            right: right.as_vec3(),
+            up: right.cross(forward).as_vec3(),
+            forward: forward.as_vec3(),
+            half_height: half_height as f32,
+        })
+    }
+
+    /// A camera outside the box that frames its bounding sphere, seen from `direction` (from the
+    /// middle of the box towards the eye; not zero, not along y), with y up and a field of view of
+    /// 38°. An empty box is framed as a unit cube at the origin.
+    pub fn framing(bounds: &Aabb, direction: Vec3) -> Self {
+        const FIELD_OF_VIEW: f32 = 38.0;
+        let (center, radius) = if bounds.is_empty() {
+            (Vec3::ZERO, 1.0)
+        } else {
+            (bounds.center(), 0.5 * bounds.extent().length())
+        };
+        let distance = radius / (0.5 * FIELD_OF_VIEW).to_radians().sin();
+        let direction = direction.try_normalize().unwrap_or(Vec3::Z);
+        let up = if direction.cross(Vec3::Y).length() > 1e-3 { Vec3::Y } else { Vec3::Z };
+        // A speck far from the origin can be nearer than the next float: then any camera will do.
+        Self::look_at(center + distance * direction, center, up, FIELD_OF_VIEW).unwrap_or(Self {
+            eye: center,
+            right: Vec3::X,
+            up: Vec3::Y,
+            forward: Vec3::NEG_Z,
+            half_height: 0.34,
+        })
+    }
+
+    /// Where all primary rays start, world space, scene units.
+    pub fn eye(&self) -> Vec3 {
+        self.eye
+    }
+
+    /// Unit vector to the right of the picture.
+    pub fn right(&self) -> Vec3 {
+        self.right
+    }
+
+    /// Unit vector to the top of the picture.
+    pub fn up(&self) -> Vec3 {
+        self.up
+    }
+
+    /// Unit vector into the picture.
+    pub fn forward(&self) -> Vec3 {
+        self.forward
+    }
+
+    /// Tangent of half the vertical field of view: half the picture's height at unit distance.
+    pub fn half_height(&self) -> f32 {
+        self.half_height
+    }
+
+    /// The same camera moved sideways and upwards by so many scene units, looking the same way.
+    #[must_use]
+    pub fn shifted(&self, right: f32, up: f32) -> Self {
+        Self { eye: self.eye + right * self.right + up * self.up, ..*self }
+    }
+
+    /// The unit direction through the middle of pixel (`column`, `row`), counted from the top left,
+    /// in f64 from the stored f32 camera. What renderers use is the f32 rounding of this that
+    /// [`View::rays`](crate::View) hands out; this is what it is tested against.
+    pub fn exact_direction(&self, column: u32, row: u32, width: u32, height: u32) -> DVec3 {
+        let (width, height) = (f64::from(width), f64::from(height));
+        let half_height = f64::from(self.half_height);
+        let x = (2.0 * (f64::from(column) + 0.5) / width - 1.0) * half_height * width / height;
+        let y = (1.0 - 2.0 * (f64::from(row) + 0.5) / height) * half_height;
+        (self.forward.as_dvec3() + x * self.right.as_dvec3() + y * self.up.as_dvec3()).normalize()
+    }
+}
+
+/// What a picture is taken of: a camera, an image size, and perhaps a solid scene in front.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    camera: Camera,
+    width: u32,
+    height: u32,
+    opaque_distance: Option<Arc<[f32]>>,
+}
+
+/// Why something is no view.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// The image has no pixels, or more than an index of 32 bits can name.
+    #[error("image size: needed from 1 to {} pixels, found {width} × {height}", i32::MAX)]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// The opaque distance image has another size than the view.
+    #[error("opaque distance image: needed {needed} pixels, found {found}")]
+    OpaqueSize {
+        /// Width times height of the view.
+        needed: usize,
+        /// Pixels of the image.
+        found: usize,
+    },
+    /// A distance is negative or NaN.
+    #[error(
+        "opaque distance image: needed distances of at least 0, found {found} at pixel {index}"
+    )]
+    OpaqueDistance {
+        /// Index of the pixel, row by row from the top left.
+        index: usize,
+        /// The distance, printed.
+        found: String,
+    },
+}
+
+impl View {
+    /// A view without a solid scene.
+    ///
+    /// # Errors
+    /// When the image has no pixels or too many.
+    pub fn new(camera: Camera, width: u32, height: u32) -> Result<Self, ViewError> {
+        let pixels = u64::from(width) * u64::from(height);
+        if pixels == 0 || pixels > i32::MAX as u64 {
+            return Err(ViewError::Size { width, height });
+        }
+        Ok(Self { camera, width, height, opaque_distance: None })
+    }
+
+    /// Puts a solid scene before the metaballs: for each pixel, row by row from the top left, the
+    /// distance along its unit ray at which something opaque is hit, +∞ where there is nothing
+    /// (Illés and Szécsi, phase 2; the polygons of Kanamori et al.). No ray looks beyond it.
+    ///
+    /// # Errors
+    /// When the image's size differs or a distance is negative or NaN.
+    pub fn with_opaque_distance(mut self, distance: Arc<[f32]>) -> Result<Self, ViewError> {
+        if distance.len() != self.pixels() {
+            return Err(ViewError::OpaqueSize { needed: self.pixels(), found: distance.len() });
+        }
+        if let Some(index) = distance.iter().position(|t| t.is_nan() || *t < 0.0) {
+            let found = distance[index].to_string();
+            return Err(ViewError::OpaqueDistance { index, found });
+        }
+        self.opaque_distance = Some(distance);
+        Ok(self)
+    }
+
+    /// The same image size and solid scene, seen by another camera.
+    #[must_use]
+    pub fn with_camera(&self, camera: Camera) -> Self {
+        Self { camera, ..self.clone() }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Pixels across.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Width times height.
+    pub fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// Distances of the solid scene, if the view has one.
+    pub fn opaque_distance(&self) -> Option<&[f32]> {
+        self.opaque_distance.as_deref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_abs_diff_eq;
+
+    use super::*;
+
+    fn camera() -> Camera {
+        Camera::look_at(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 90.0).expect("legal")
+    }
+
+    #[test]
+    fn directions_follow_the_picture() {
+        let middle = camera().exact_direction(1, 1, 3, 3);
+        assert_abs_diff_eq!(middle.as_vec3(), Vec3::NEG_Z, epsilon = 1e-6);
+        let top_left = camera().exact_direction(0, 0, 3, 3);
+        assert!(top_left.x < 0.0 && top_left.y > 0.0);
+        // A field of view of 90° puts the top edge at 45°.
+        let top = camera().exact_direction(1, 0, 3, 3_000);
+        assert_abs_diff_eq!(top.y / -top.z, 1.0, epsilon = 1e-3);
+    }
+
+    #[test]
+    fn impossible_cameras_are_refused() {
+        let up = Camera::look_at(Vec3::Z, Vec3::ZERO, Vec3::Z, 38.0).expect_err("refused");
+        assert!(up.to_string().starts_with("camera up: needed"));
+        let fov = Camera::look_at(Vec3::Z, Vec3::ZERO, Vec3::Y, 180.0).expect_err("refused");
+        assert_eq!(fov, CameraError::FieldOfView { found: 180.0 });
+        assert!(Camera::look_at(Vec3::Z, Vec3::Z, Vec3::Y, 38.0).is_err());
+        assert!(Camera::look_at(Vec3::NAN, Vec3::Z, Vec3::Y, 38.0).is_err());
+    }
+
+    #[test]
+    fn framing_never_fails() {
+        for center in [0.0, 1.0, 1e18] {
+            for radius in [1e-18, 1.0, 1e18] {
+                for direction in [Vec3::Z, Vec3::Y, Vec3::ZERO, Vec3::ONE] {
+                    let bounds = Aabb::around_sphere(Vec3::splat(center), radius);
+                    assert!(Camera::framing(&bounds, direction).forward().is_normalized());
+                }
+            }
+        }
+        assert!(Camera::framing(&Aabb::EMPTY, Vec3::Z).eye().is_finite());
+    }
+
+    #[test]
+    fn views_check_the_solid_scene() {
+        let view = View::new(camera(), 2, 2).expect("legal");
+        let wrong = view.clone().with_opaque_distance(Arc::from([1.0].as_slice()));
+        assert_eq!(wrong, Err(ViewError::OpaqueSize { needed: 4, found: 1 }));
+        let nan =
+            view.clone().with_opaque_distance(Arc::from([1.0, f32::NAN, 0.0, 0.0].as_slice()));
+        assert!(matches!(nan, Err(ViewError::OpaqueDistance { index: 1, .. })));
+        assert!(view.with_opaque_distance(Arc::from([f32::INFINITY; 4].as_slice())).is_ok());
+        assert!(View::new(camera(), 0, 5).is_err());
+    }
+}

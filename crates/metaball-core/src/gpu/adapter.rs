@@ -1,0 +1,173 @@
+//! Choosing an adapter, and saying what it is.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// Which adapter to draw with.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum AdapterChoice {
+    /// As wgpu's users expect: `WGPU_ADAPTER_NAME`, `WGPU_BACKEND` and `WGPU_POWER_PREF`, and where
+    /// they say nothing the fastest adapter.
+    #[default]
+    Environment,
+    /// The first adapter whose name contains this text, whatever the case.
+    Named(String),
+    /// An adapter that computes on the CPU, the same on every machine with the same driver.
+    Software,
+}
+
+/// Why there is no device.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// No adapter at all, or none that was asked for.
+    #[error("no graphics adapter{}{}\n{INSTALL_SOFTWARE_ADAPTER}", for_choice(choice), list(found))]
+    NoAdapter {
+        /// What was asked for.
+        choice: AdapterChoice,
+        /// Names of the adapters there are.
+        found: Vec<String>,
+    },
+    /// The adapter gave no device.
+    #[error("adapter {adapter}: {reason}")]
+    NoDevice {
+        /// Name of the adapter.
+        adapter: String,
+        /// wgpu's words.
+        reason: String,
+    },
+}
+
+/// How to get an adapter where there is none.
+const INSTALL_SOFTWARE_ADAPTER: &str = "\
+A Vulkan, Metal or Direct3D 12 driver is needed. One that computes on the CPU will do:
+  Debian, Ubuntu   sudo apt-get install mesa-vulkan-drivers libvulkan1
+  Fedora           sudo dnf install mesa-vulkan-drivers vulkan-loader
+  Arch             sudo pacman -S vulkan-swrast vulkan-icd-loader
+  macOS, Windows   part of the system (Metal; Direct3D 12 with WARP)";
+
+fn for_choice(choice: &AdapterChoice) -> String {
+    match choice {
+        AdapterChoice::Environment => String::new(),
+        AdapterChoice::Named(name) => format!(" with \"{name}\" in its name"),
+        AdapterChoice::Software => " that computes on the CPU".to_owned(),
+    }
+}
+
+fn list(found: &[String]) -> String {
+    if found.is_empty() { String::new() } else { format!("; found {}", found.join(", ")) }
+}
+
+/// What is being drawn with. Printed, it is one line a fact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AdapterReport {
+    /// The adapter's name.
+    pub name: String,
+    /// The API it is driven by, such as `vulkan`.
+    pub backend: String,
+    /// Driver and its version, in the driver's words.
+    pub driver: String,
+    /// What kind of processor it is; software adapters are `Cpu`.
+    pub kind: wgpu::DeviceType,
+    /// Whether passes can be timed.
+    pub timestamps: bool,
+    /// Bytes of the largest buffer.
+    pub max_buffer_bytes: u64,
+    /// Bytes of the largest storage binding: sixteen times this many balls fit a scene.
+    pub max_binding_bytes: u64,
+    /// Storage buffers that one shader can see.
+    pub max_storage_buffers: u32,
+}
+
+impl AdapterReport {
+    /// Whether shaders run on the CPU, so that times say nothing of a GPU.
+    pub fn is_software(&self) -> bool {
+        self.kind == wgpu::DeviceType::Cpu
+    }
+
+    pub(super) fn new(info: &wgpu::AdapterInfo, limits: &wgpu::Limits, timestamps: bool) -> Self {
+        Self {
+            name: info.name.clone(),
+            backend: info.backend.to_string(),
+            driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+            kind: info.device_type,
+            timestamps,
+            max_buffer_bytes: limits.max_buffer_size,
+            max_binding_bytes: limits.max_storage_buffer_binding_size,
+            max_storage_buffers: limits.max_storage_buffers_per_shader_stage,
+        }
+    }
+}
+
+impl fmt::Display for AdapterReport {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mebibytes = |bytes: u64| bytes >> 20;
+        let kind = match self.kind {
+            wgpu::DeviceType::Cpu => "software (computes on the CPU)",
+            wgpu::DeviceType::DiscreteGpu => "discrete GPU",
+            wgpu::DeviceType::IntegratedGpu => "integrated GPU",
+            wgpu::DeviceType::VirtualGpu => "virtual GPU",
+            wgpu::DeviceType::Other => "of unknown kind",
+        };
+        writeln!(formatter, "adapter     {}", self.name)?;
+        writeln!(formatter, "kind        {kind}")?;
+        writeln!(formatter, "backend     {}", self.backend)?;
+        writeln!(formatter, "driver      {}", self.driver)?;
+        writeln!(formatter, "buffers     up to {} MiB", mebibytes(self.max_buffer_bytes))?;
+        writeln!(
+            formatter,
+            "bindings    up to {} MiB, {} to a shader",
+            mebibytes(self.max_binding_bytes),
+            self.max_storage_buffers
+        )?;
+        write!(formatter, "timestamps  {}", if self.timestamps { "yes" } else { "no" })
+    }
+}
+
+/// The adapter asked for.
+pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> {
+    let instance =
+        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let adapters = || pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+    let name = match choice {
+        AdapterChoice::Environment => std::env::var("WGPU_ADAPTER_NAME").ok(),
+        AdapterChoice::Named(name) => Some(name.clone()),
+        AdapterChoice::Software => None,
+    };
+    let adapter = if let Some(name) = name.map(|name| name.to_lowercase()) {
+        adapters()
+            .into_iter()
+            .find(|adapter| adapter.get_info().name.to_lowercase().contains(&name))
+    } else {
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::from_env()
+                .unwrap_or(wgpu::PowerPreference::HighPerformance),
+            force_fallback_adapter: *choice == AdapterChoice::Software,
+            ..wgpu::RequestAdapterOptions::default()
+        };
+        pollster::block_on(instance.request_adapter(&options)).ok()
+    };
+    adapter.ok_or_else(|| GpuError::NoAdapter {
+        choice: choice.clone(),
+        found: adapters().iter().map(|adapter| adapter.get_info().name).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_adapter_says_what_to_do() {
+        let error = GpuError::NoAdapter {
+            choice: AdapterChoice::Named("Voodoo".to_owned()),
+            found: vec!["llvmpipe".to_owned()],
+        };
+        let text = error.to_string();
+        assert!(
+            text.starts_with("no graphics adapter with \"Voodoo\" in its name; found llvmpipe")
+        );
+        assert!(text.contains("apt-get install mesa-vulkan-drivers libvulkan1"));
+    }
+}

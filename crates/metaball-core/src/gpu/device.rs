@@ -1,0 +1,223 @@
+//! The device, and buffers on it.
+
+use std::io::Write;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use bytemuck::Pod;
+
+use super::adapter::{AdapterChoice, AdapterReport, GpuError, choose};
+use super::error::RenderError;
+
+/// A device with its queue. Made once; everything else borrows it.
+///
+/// What wgpu complains of does not panic: the first complaint is kept, and the next function of
+/// this module that returns a [`RenderError`] returns it. With several threads on one device, it
+/// reaches whichever asks first.
+#[derive(Debug)]
+pub struct Gpu {
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    report: AdapterReport,
+    complaint: Arc<Mutex<Option<RenderError>>>,
+}
+
+impl Gpu {
+    /// Opens the adapter. Of its features only timestamps are asked for, if it has them; of its
+    /// limits those that bound the size of a scene and of a picture, and the number of storage
+    /// buffers of a shader.
+    ///
+    /// # Errors
+    /// When there is no such adapter; the text says how to get one.
+    pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        let adapter = choose(choice)?;
+        let info = adapter.get_info();
+        let features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        let own = adapter.limits();
+        let limits = wgpu::Limits {
+            max_buffer_size: own.max_buffer_size,
+            max_storage_buffer_binding_size: own.max_storage_buffer_binding_size,
+            max_storage_buffers_per_shader_stage: own.max_storage_buffers_per_shader_stage,
+            max_texture_dimension_2d: own.max_texture_dimension_2d,
+            ..wgpu::Limits::default()
+        };
+        let report = AdapterReport::new(&info, &limits, !features.is_empty());
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("metaballs"),
+            required_features: features,
+            required_limits: limits,
+            ..wgpu::DeviceDescriptor::default()
+        };
+        let (device, queue) =
+            pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
+                GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() }
+            })?;
+        let complaint = Arc::default();
+        listen(&device, &complaint);
+        Ok(Self { device, queue, report, complaint })
+    }
+
+    /// A device for a test. Without an adapter the test is told to do nothing and says so on the
+    /// terminal; where the environment sets `REQUIRE_GPU` it fails instead.
+    ///
+    /// # Panics
+    /// When there is no device and `REQUIRE_GPU` is set.
+    pub fn for_test() -> Option<Self> {
+        match Self::new(&AdapterChoice::Environment) {
+            Ok(gpu) => Some(gpu),
+            Err(error) if std::env::var_os("REQUIRE_GPU").is_some() => {
+                panic!("REQUIRE_GPU is set: {error}")
+            }
+            Err(_) => {
+                // Past the capture of test output: a test that did not run must not look passed.
+                let thread = std::thread::current();
+                let test = thread.name().unwrap_or("a test");
+                let _ = writeln!(std::io::stderr(), "{test}: ignored: no adapter");
+                None
+            }
+        }
+    }
+
+    /// What is being drawn with.
+    pub fn report(&self) -> &AdapterReport {
+        &self.report
+    }
+
+    /// Runs work on the device and returns what it made, unless wgpu complained.
+    ///
+    /// # Errors
+    /// wgpu's complaint.
+    pub fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T, RenderError> {
+        let made = work();
+        match self.complaint.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            Some(complaint) => Err(complaint),
+            None => Ok(made),
+        }
+    }
+
+    /// An empty buffer that can be bound as storage, copied from and copied to, and whatever
+    /// `usages` adds. No bytes become four: a binding cannot be empty.
+    ///
+    /// # Errors
+    /// When the adapter cannot bind so many bytes, or has not got them.
+    pub fn storage(
+        &self,
+        what: &'static str,
+        bytes: u64,
+        usages: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, RenderError> {
+        let limit_bytes = self.report.max_binding_bytes.min(self.report.max_buffer_bytes);
+        if bytes > limit_bytes {
+            return Err(RenderError::TooLarge { what, needed_bytes: bytes, limit_bytes });
+        }
+        self.checked(|| {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(what),
+                size: bytes.max(4).next_multiple_of(4),
+                usage: wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::COPY_SRC
+                    | wgpu::BufferUsages::COPY_DST
+                    | usages,
+                mapped_at_creation: false,
+            })
+        })
+    }
+
+    /// A storage buffer that holds the elements; room for one when there are none.
+    ///
+    /// # Errors
+    /// As [`Gpu::storage`].
+    pub fn upload<T: Pod>(
+        &self,
+        what: &'static str,
+        elements: &[T],
+        usages: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, RenderError> {
+        let bytes = size_of_val(elements).max(size_of::<T>()) as u64;
+        let buffer = self.storage(what, bytes, usages)?;
+        self.checked(|| self.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(elements)))?;
+        Ok(buffer)
+    }
+
+    /// Everything in a buffer, once the device has done all it was given. For results, not for
+    /// frames: it waits, and for the while needs as many bytes again.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn read<T: Pod>(&self, buffer: &wgpu::Buffer) -> Result<Vec<T>, RenderError> {
+        let staging = self.checked(|| {
+            let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("read back"),
+                size: buffer.size(),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            });
+            let mut encoder = self.device.create_command_encoder(&Default::default());
+            encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+            self.queue.submit([encoder.finish()]);
+            staging
+        })?;
+        self.read_mapped(&staging, |bytes| bytemuck::pod_collect_to_vec(bytes))
+    }
+
+    /// Maps a buffer, hands over its bytes, and unmaps it.
+    pub(super) fn read_mapped<T>(
+        &self,
+        buffer: &wgpu::Buffer,
+        read: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, RenderError> {
+        let lost = |text: String| RenderError::DeviceLost { text };
+        let (sender, receiver) = std::sync::mpsc::channel();
+        self.checked(|| {
+            buffer.slice(..).map_async(wgpu::MapMode::Read, move |outcome| {
+                // The receiver outlives the wait below: nothing is lost.
+                let _ = sender.send(outcome);
+            });
+        })?;
+        self.wait()?;
+        receiver
+            .recv()
+            .map_err(|error| lost(error.to_string()))?
+            .map_err(|error| lost(error.to_string()))?;
+        let contents = {
+            let view = buffer.get_mapped_range(..).map_err(|error| lost(error.to_string()))?;
+            read(&view)
+        };
+        buffer.unmap();
+        Ok(contents)
+    }
+
+    /// Waits for the fence of everything submitted.
+    pub(super) fn wait(&self) -> Result<(), RenderError> {
+        let outcome = self.checked(|| self.device.poll(wgpu::PollType::wait_indefinitely()))?;
+        outcome.map(|_| ()).map_err(|error| RenderError::DeviceLost { text: error.to_string() })
+    }
+}
+
+/// Keeps the first complaint, in place of wgpu's panic.
+fn listen(device: &wgpu::Device, complaint: &Arc<Mutex<Option<RenderError>>>) {
+    let keep = |slot: &Mutex<Option<RenderError>>, error: RenderError| {
+        log::error!("{error}");
+        slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+    };
+    let slot = Arc::clone(complaint);
+    device.on_uncaptured_error(Arc::new(move |error| {
+        let text = error.to_string();
+        keep(
+            &slot,
+            match error {
+                wgpu::Error::OutOfMemory { .. } => RenderError::OutOfMemory { text },
+                wgpu::Error::Validation { .. } => RenderError::Refused { text },
+                wgpu::Error::Internal { .. } => RenderError::DeviceLost { text },
+            },
+        );
+    }));
+    let slot = Arc::clone(complaint);
+    device.set_device_lost_callback(move |reason, text| {
+        // Dropping a device is no loss.
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            keep(&slot, RenderError::DeviceLost { text });
+        }
+    });
+}

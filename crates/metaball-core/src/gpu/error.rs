@@ -1,0 +1,114 @@
+//! What can go wrong with a device, a frame or a method.
+
+use metaball_shaders::ComposeError;
+use thiserror::Error;
+
+use super::FrameStatus;
+
+/// Why something on the device was not made or not drawn.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// A shader does not compose.
+    #[error(transparent)]
+    Shader(#[from] ComposeError),
+    /// A buffer or binding would exceed what the adapter allows.
+    #[error("{what}: needed {needed_bytes} bytes, this adapter binds at most {limit_bytes}")]
+    TooLarge {
+        /// What was to be stored.
+        what: &'static str,
+        /// Its size.
+        needed_bytes: u64,
+        /// The adapter's limit.
+        limit_bytes: u64,
+    },
+    /// The picture has more pixels across or down than the adapter can dispatch.
+    #[error("picture: needed from 1 to {limit} pixels each way, found {width} × {height}")]
+    PictureSize {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// The adapter's limit.
+        limit: u32,
+    },
+    /// A view and the targets it is to be drawn to differ in size.
+    #[error(
+        "view: needed the targets' size of {} × {} pixels, found {} × {}",
+        needed.0, needed.1, found.0, found.1
+    )]
+    ViewSize {
+        /// Width and height of the targets.
+        needed: (u32, u32),
+        /// Width and height of the view.
+        found: (u32, u32),
+    },
+    /// An image of hits and the targets it is written to differ in size.
+    #[error("hits: needed one for each of {needed} pixels, found {found}")]
+    HitCount {
+        /// Pixels of the targets.
+        needed: usize,
+        /// Hits given.
+        found: usize,
+    },
+    /// A frame was begun on targets that another frame still uses.
+    #[error("targets: needed no other frame on them, found one begun and not finished")]
+    TargetsInUse,
+    /// A picture of something that the targets were not made to hold.
+    #[error("picture of {what}: the targets were made without it")]
+    NoTarget {
+        /// The missing target.
+        what: &'static str,
+    },
+    /// A method was used before its `build`.
+    #[error("method {method}: needed a scene built before the first frame")]
+    NotBuilt {
+        /// Name of the method.
+        method: &'static str,
+    },
+    /// A method cannot draw this scene at all.
+    #[error("method {method}: {reason}")]
+    Unsupported {
+        /// Name of the method.
+        method: &'static str,
+        /// What it needs, and what the scene has.
+        reason: String,
+    },
+    /// A method's structure could not be built.
+    #[error("method {method}: {source}")]
+    Structure {
+        /// Name of the method.
+        method: &'static str,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// A frame was not whole, and making room did not help.
+    #[error(
+        "method {method}: {} rays or pixels without a final answer, room needed {:?}",
+        status.unfinished, status.needed
+    )]
+    Incomplete {
+        /// Name of the method.
+        method: &'static str,
+        /// What the last frame said.
+        status: FrameStatus,
+    },
+    /// The device ran out of memory.
+    #[error("device out of memory: {text}")]
+    OutOfMemory {
+        /// wgpu's words.
+        text: String,
+    },
+    /// wgpu refused a call: a mistake in a shader, layout or pass.
+    #[error("refused by wgpu: {text}")]
+    Refused {
+        /// wgpu's words.
+        text: String,
+    },
+    /// The device went away, or its driver failed.
+    #[error("device lost: {text}")]
+    DeviceLost {
+        /// wgpu's words.
+        text: String,
+    },
+}

@@ -1,0 +1,212 @@
+//! From a scene to the shaders made for it.
+
+use std::borrow::Cow;
+
+use metaball_shaders::{KernelModule, Module, Variant, compose, compose_module, naga};
+
+use super::{Gpu, RenderError};
+use crate::{Kernel, Scene};
+
+/// Key of the override constant in `kernel/power.wgsl`: its `@id`.
+///
+/// Composition changes the names of constants, so they are set by id. Ids below 16 belong to the
+/// shared modules; methods number theirs from 16.
+const EXPONENT: &str = "0";
+
+/// What selects pipelines: all that shaders are specialised for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Specialization {
+    /// Falloff of the balls.
+    pub kernel: Kernel,
+    /// Whether balls have strengths of their own.
+    pub strengths: bool,
+    /// Whether balls have colours.
+    pub colors: bool,
+    /// Whether work is counted; never while timing.
+    pub counting: bool,
+    /// Names of modules that a method prefers where several define one import path.
+    pub chosen: &'static [&'static str],
+}
+
+impl Specialization {
+    /// What this scene needs, and no more.
+    pub fn of(scene: &Scene, counting: bool) -> Self {
+        Self {
+            kernel: scene.kernel(),
+            strengths: scene.strengths().is_some(),
+            colors: scene.colors().is_some(),
+            counting,
+            chosen: &[],
+        }
+    }
+
+    /// For passes that look at no ball.
+    pub fn without_balls() -> Self {
+        Self {
+            kernel: Kernel::QUARTIC,
+            strengths: false,
+            colors: false,
+            counting: false,
+            chosen: &[],
+        }
+    }
+
+    /// The same with a method's own choice among modules with one import path.
+    #[must_use]
+    pub fn choosing(self, chosen: &'static [&'static str]) -> Self {
+        Self { chosen, ..self }
+    }
+
+    /// The modules to compose.
+    pub fn variant(&self) -> Variant {
+        Variant {
+            kernel: match self.kernel {
+                Kernel::Power(_) => KernelModule::Power,
+                Kernel::Wyvill => KernelModule::Wyvill,
+                Kernel::Perlin => KernelModule::Perlin,
+            },
+            strengths: self.strengths,
+            colors: self.colors,
+            counting: self.counting,
+            chosen: self.chosen,
+        }
+    }
+
+    /// Override constants by id.
+    pub fn constants(&self) -> Vec<(&'static str, f64)> {
+        match self.kernel {
+            Kernel::Power(exponent) => vec![(EXPONENT, f64::from(exponent.get()))],
+            Kernel::Wyvill | Kernel::Perlin => Vec::new(),
+        }
+    }
+}
+
+/// Composes a module and makes a pipeline of one of its entry points. `extra_constants` are the
+/// method's own, by id (from 16).
+///
+/// # Errors
+/// When the module does not compose, or wgpu refuses it.
+pub fn compute_pipeline(
+    gpu: &Gpu,
+    label: &str,
+    module: &str,
+    entry: &str,
+    spec: &Specialization,
+    layouts: &[&wgpu::BindGroupLayout],
+    extra_constants: &[(&str, f64)],
+) -> Result<wgpu::ComputePipeline, RenderError> {
+    Shader::new(gpu, label, module, spec)?.compute(
+        gpu,
+        label,
+        entry,
+        spec,
+        layouts,
+        extra_constants,
+    )
+}
+
+/// A composed module on the device: for several entry points of one, and for raster pipelines.
+#[derive(Debug)]
+pub struct Shader {
+    /// The module.
+    pub module: wgpu::ShaderModule,
+    ids: Vec<u16>,
+}
+
+impl Shader {
+    /// Composes a module of the table.
+    ///
+    /// # Errors
+    /// When the module does not compose, or wgpu refuses it.
+    pub fn new(
+        gpu: &Gpu,
+        label: &str,
+        module: &str,
+        spec: &Specialization,
+    ) -> Result<Self, RenderError> {
+        Self::of_composed(gpu, label, compose(module, &spec.variant())?)
+    }
+
+    /// Composes a module from elsewhere.
+    ///
+    /// # Errors
+    /// As [`Shader::new`].
+    pub fn of_module(
+        gpu: &Gpu,
+        module: &Module,
+        spec: &Specialization,
+    ) -> Result<Self, RenderError> {
+        Self::of_composed(gpu, module.name, compose_module(module, &spec.variant())?)
+    }
+
+    fn of_composed(gpu: &Gpu, label: &str, composed: naga::Module) -> Result<Self, RenderError> {
+        let ids = override_ids(&composed);
+        let module = gpu.checked(|| {
+            gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Naga(Cow::Owned(composed)),
+            })
+        })?;
+        Ok(Self { module, ids })
+    }
+
+    /// A compute pipeline of one entry point. `extra_constants` are the method's own, by id (from
+    /// 16).
+    ///
+    /// # Errors
+    /// When wgpu refuses it.
+    pub fn compute(
+        &self,
+        gpu: &Gpu,
+        label: &str,
+        entry: &str,
+        spec: &Specialization,
+        layouts: &[&wgpu::BindGroupLayout],
+        extra_constants: &[(&str, f64)],
+    ) -> Result<wgpu::ComputePipeline, RenderError> {
+        let constants = self.constants(spec, extra_constants);
+        gpu.checked(|| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: Some(&pipeline_layout(gpu, label, layouts)),
+                module: &self.module,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
+                cache: None,
+            })
+        })
+    }
+
+    /// The specialisation's constants that this module has, and the method's own.
+    pub fn constants<'a>(
+        &self,
+        spec: &Specialization,
+        extra: &[(&'a str, f64)],
+    ) -> Vec<(&'a str, f64)> {
+        let used =
+            |key: &str| self.ids.iter().any(|id| key.parse().is_ok_and(|key: u16| key == *id));
+        let shared = spec.constants().into_iter().filter(|(key, _)| used(key));
+        shared.chain(extra.iter().copied()).collect()
+    }
+}
+
+/// The layout of pipelines with these groups, the first as group 0.
+pub fn pipeline_layout(
+    gpu: &Gpu,
+    label: &str,
+    layouts: &[&wgpu::BindGroupLayout],
+) -> wgpu::PipelineLayout {
+    let groups: Vec<_> = layouts.iter().copied().map(Some).collect();
+    gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    })
+}
+
+fn override_ids(module: &naga::Module) -> Vec<u16> {
+    module.overrides.iter().filter_map(|(_, constant)| constant.id).collect()
+}

@@ -1,0 +1,71 @@
+//! The scene on the device.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::layout::{Binding, group, layout};
+use super::{Gpu, RenderError, Specialization};
+use crate::Scene;
+
+/// What a scene needs on the device, once for all methods: group 1 of their pipelines.
+///
+/// 16 bytes a ball; 4 more where strengths vary, 4 more where there are colours.
+#[derive(Debug)]
+pub struct SceneBuffers {
+    bind_group: wgpu::BindGroup,
+    bytes: u64,
+}
+
+/// Facts of the whole scene: WGSL's `SceneHeader` of `core/scene.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct SceneHeader {
+    /// T: the field on the surface.
+    pub threshold: f32,
+    /// Number of balls.
+    pub balls: u32,
+}
+
+impl SceneBuffers {
+    /// Uploads the scene.
+    ///
+    /// # Errors
+    /// When it has more balls than the adapter can bind.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, RenderError> {
+        let none = wgpu::BufferUsages::empty();
+        let supports = gpu.upload("support spheres", scene.supports(), none)?;
+        let strengths =
+            scene.strengths().map(|all| gpu.upload("strengths", all, none)).transpose()?;
+        let colors = scene.colors().map(|all| gpu.upload("colours", all, none)).transpose()?;
+        let header = gpu.upload(
+            "scene header",
+            &[SceneHeader { threshold: scene.threshold(), balls: scene.len() as u32 }],
+            wgpu::BufferUsages::UNIFORM,
+        )?;
+
+        let mut buffers = vec![(0, &supports), (3, &header)];
+        buffers.extend(strengths.as_ref().map(|buffer| (1, buffer)));
+        buffers.extend(colors.as_ref().map(|buffer| (2, buffer)));
+        let layout = scene_layout(gpu, &Specialization::of(scene, false));
+        let bind_group = gpu.checked(|| group(gpu, "scene", &layout, &buffers))?;
+        let bytes = buffers.iter().map(|(_, buffer)| buffer.size()).sum();
+        Ok(Self { bind_group, bytes })
+    }
+
+    /// Group 1.
+    pub fn bind_group(&self) -> &wgpu::BindGroup {
+        &self.bind_group
+    }
+
+    /// Bytes on the device, all of them uploaded.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+}
+
+/// Layout of group 1. What a scene has not got is not in it.
+pub fn scene_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
+    let mut bindings = vec![(0, Binding::Read), (3, Binding::Uniform)];
+    bindings.extend(spec.strengths.then_some((1, Binding::Read)));
+    bindings.extend(spec.colors.then_some((2, Binding::Read)));
+    layout(gpu, "scene", &bindings)
+}

@@ -1,0 +1,221 @@
+//! The picture of the balls alone.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::layout::{Binding, group, layout};
+use super::targets::ViewUniform;
+use super::{Gpu, Image, RenderError, Shader, Specialization, Targets, pipeline_layout};
+use crate::{Color, Scene, View};
+
+const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// A ball as `shade/spheres.wgsl` draws it: WGSL's `CoreSphere`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(super) struct CoreSphere {
+    /// Centre, world space, scene units.
+    pub(super) center: Vec3,
+    /// Core radius, scene units, positive.
+    pub(super) radius: f32,
+    /// Colour in linear light.
+    pub(super) color: Vec3,
+    /// The distance, scene units, that is stored as depth one half; the same for all.
+    pub(super) half_depth: f32,
+}
+
+/// The core spheres of a scene, ready to be drawn. Balls that never reach the threshold alone are
+/// not among them.
+#[derive(Debug)]
+pub(super) struct SpherePicture {
+    spheres: wgpu::Buffer,
+    count: u32,
+    sphere_layout: wgpu::BindGroupLayout,
+    view_layout: wgpu::BindGroupLayout,
+    background: wgpu::RenderPipeline,
+    foreground: wgpu::RenderPipeline,
+}
+
+impl SpherePicture {
+    pub(super) fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, RenderError> {
+        let spheres = core_spheres(scene);
+        let buffer = gpu.upload("core spheres", &spheres, wgpu::BufferUsages::empty())?;
+        let view_layout = layout(gpu, "view", &[(0, Binding::Uniform)]);
+        let sphere_layout = layout(gpu, "core spheres", &[(0, Binding::Read)]);
+        let shader =
+            Shader::new(gpu, "spheres", "shade/spheres", &Specialization::without_balls())?;
+        let layouts = [&view_layout, &sphere_layout];
+        let (background, foreground) = gpu.checked(|| {
+            (
+                pipeline(gpu, &shader, &layouts, "cover_picture", "shade_background"),
+                pipeline(gpu, &shader, &layouts, "bound_sphere", "shade_sphere"),
+            )
+        })?;
+        Ok(Self {
+            spheres: buffer,
+            count: spheres.len() as u32,
+            sphere_layout,
+            view_layout,
+            background,
+            foreground,
+        })
+    }
+
+    pub(super) fn draw(
+        &self,
+        gpu: &Gpu,
+        targets: &Targets,
+        view: &View,
+    ) -> Result<Image, RenderError> {
+        let (width, height) = (targets.width(), targets.height());
+        let largest = gpu.device.limits().max_texture_dimension_2d;
+        if width > largest || height > largest {
+            return Err(RenderError::PictureSize { width, height, limit: largest });
+        }
+        let uniform = gpu.upload("view", &[ViewUniform::new(view)], wgpu::BufferUsages::UNIFORM)?;
+        let texture = |label, format, usage| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+                view_formats: &[],
+            })
+        };
+        // A row of a copied texture begins at a multiple of 256 bytes.
+        let row_bytes = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let bytes = u64::from(row_bytes) * u64::from(height);
+        let rows = gpu.storage("picture", bytes, wgpu::BufferUsages::empty())?;
+        gpu.checked(|| {
+            let color = texture("picture", COLOR_FORMAT, wgpu::TextureUsages::COPY_SRC);
+            let depth = texture("depth", DEPTH_FORMAT, wgpu::TextureUsages::empty());
+            let view_group = group(gpu, "view", &self.view_layout, &[(0, &uniform)]);
+            let sphere_group =
+                group(gpu, "core spheres", &self.sphere_layout, &[(0, &self.spheres)]);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            self.record(&mut encoder, &color, &depth, &view_group, &sphere_group);
+            encoder.copy_texture_to_buffer(
+                color.as_image_copy(),
+                wgpu::TexelCopyBufferInfo {
+                    buffer: &rows,
+                    layout: wgpu::TexelCopyBufferLayout {
+                        offset: 0,
+                        bytes_per_row: Some(row_bytes),
+                        rows_per_image: None,
+                    },
+                },
+                color.size(),
+            );
+            gpu.queue.submit([encoder.finish()]);
+        })?;
+        let rows: Vec<u8> = gpu.read(&rows)?;
+        let filled = |row: &[u8]| row[..4 * width as usize].to_vec();
+        let rgba = rows.chunks_exact(row_bytes as usize).flat_map(filled).collect();
+        Ok(Image { width, height, rgba })
+    }
+
+    fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        color: &wgpu::Texture,
+        depth: &wgpu::Texture,
+        view: &wgpu::BindGroup,
+        spheres: &wgpu::BindGroup,
+    ) {
+        let color = color.create_view(&Default::default());
+        let depth = depth.create_view(&Default::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("spheres"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &color,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations::default(),
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &depth,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(0.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        pass.set_bind_group(0, view, &[]);
+        pass.set_bind_group(1, spheres, &[]);
+        pass.set_pipeline(&self.background);
+        pass.draw(0..4, 0..1);
+        pass.set_pipeline(&self.foreground);
+        pass.draw(0..4, 0..self.count);
+    }
+}
+
+/// Each ball's sphere of its own threshold, with the ball's colour or a common one.
+fn core_spheres(scene: &Scene) -> Vec<CoreSphere> {
+    const WHITE: Vec3 = Vec3::new(0.80, 0.78, 0.74);
+    let cores = scene.balls().enumerate().filter_map(|(index, ball)| {
+        let radius = scene.kernel().core_radius(&ball, scene.threshold())? as f32;
+        let color = scene.colors().map_or(WHITE, |colors| linear(colors[index]));
+        (radius > 0.0).then_some(CoreSphere { center: ball.center, radius, color, half_depth: 0.0 })
+    });
+    let mut spheres: Vec<_> = cores.collect();
+    let smallest = spheres.iter().map(|sphere| sphere.radius).reduce(f32::min).unwrap_or(1.0);
+    for sphere in &mut spheres {
+        sphere.half_depth = smallest;
+    }
+    spheres
+}
+
+/// An sRGB colour in linear light (IEC 61966-2-1).
+fn linear(color: Color) -> Vec3 {
+    let decode = |channel: u8| {
+        let encoded = f32::from(channel) / 255.0;
+        if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+    };
+    Vec3::from(color.to_srgb().map(decode))
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    shader: &Shader,
+    layouts: &[&wgpu::BindGroupLayout],
+    vertex: &str,
+    fragment: &str,
+) -> wgpu::RenderPipeline {
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(&pipeline_layout(gpu, "spheres", layouts)),
+        vertex: wgpu::VertexState {
+            module: &shader.module,
+            entry_point: Some(vertex),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState {
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            ..wgpu::PrimitiveState::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            // Depth falls with distance; the background's is 0, as the clear value.
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &shader.module,
+            entry_point: Some(fragment),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(COLOR_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,255 @@
+//! What frames of one size write to.
+
+use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::clock::Clock;
+use super::layout::{Binding, group, layout};
+use super::rays::{PackedRay, RayPass};
+use super::{FrameStatus, Gpu, RenderError, Specialization, Work};
+use crate::{Color, Hit, PackedHit, Ray, View};
+
+/// Pixels on a side of the square that a workgroup of a pass over the picture covers:
+/// `@workgroup_size(8, 8)`.
+pub const TILE: u32 = 8;
+
+/// Everything of one image size: rays, hits and status, and the clock of its passes; blended colours
+/// and work counters only when asked for. 32 bytes a pixel; 4 more with colours, 24 more with work.
+///
+/// One frame at a time may use them.
+#[derive(Debug)]
+pub struct Targets {
+    width: u32,
+    height: u32,
+    pub(super) view: wgpu::Buffer,
+    rays: wgpu::Buffer,
+    hits: wgpu::Buffer,
+    pub(super) status: wgpu::Buffer,
+    colors: Option<wgpu::Buffer>,
+    pub(super) work: Option<wgpu::Buffer>,
+    bind_group: wgpu::BindGroup,
+    pub(super) clock: Clock,
+    pub(super) in_use: AtomicBool,
+    free_rays: RayPass,
+    /// Made with the first view that has a solid scene.
+    stopped_rays: OnceLock<RayPass>,
+}
+
+/// A view as shaders see it: WGSL's `View` of `core/view.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct ViewUniform {
+    /// Start of all rays, world space, scene units.
+    pub eye: Vec3,
+    /// Pixels across.
+    pub width: u32,
+    /// Unit vector to the right of the picture.
+    pub right: Vec3,
+    /// Pixels down.
+    pub height: u32,
+    /// Unit vector to the top of the picture.
+    pub up: Vec3,
+    /// Half a pixel's height at unit distance.
+    pub half_pixel: f32,
+    /// Unit vector into the picture.
+    pub forward: Vec3,
+    /// Fills the last sixteen bytes; zero.
+    pub padding: u32,
+}
+
+impl ViewUniform {
+    /// The view's camera and size.
+    pub fn new(view: &View) -> Self {
+        let camera = view.camera();
+        let half_pixel = f64::from(camera.half_height()) / f64::from(view.height());
+        Self {
+            eye: camera.eye(),
+            width: view.width(),
+            right: camera.right(),
+            height: view.height(),
+            up: camera.up(),
+            half_pixel: half_pixel as f32,
+            forward: camera.forward(),
+            padding: 0,
+        }
+    }
+}
+
+impl Targets {
+    /// Makes the targets of an image size.
+    ///
+    /// # Errors
+    /// When the picture has no pixels or more than the adapter can bind or dispatch.
+    pub fn new(
+        gpu: &Gpu,
+        width: u32,
+        height: u32,
+        colors: bool,
+        counting: bool,
+    ) -> Result<Self, RenderError> {
+        let limit = gpu.device.limits().max_compute_workgroups_per_dimension.saturating_mul(TILE);
+        if [width, height].iter().any(|&side| side == 0 || side > limit) {
+            return Err(RenderError::PictureSize { width, height, limit });
+        }
+        let pixels = u64::from(width) * u64::from(height);
+        let none = wgpu::BufferUsages::empty();
+        let one_a_pixel = |what, size: usize| gpu.storage(what, pixels * size as u64, none);
+        let view =
+            gpu.storage("view", size_of::<ViewUniform>() as u64, wgpu::BufferUsages::UNIFORM)?;
+        let rays = one_a_pixel("rays", size_of::<PackedRay>())?;
+        let hits = one_a_pixel("hits", size_of::<PackedHit>())?;
+        let status = gpu.storage("status", size_of::<FrameStatus>() as u64, none)?;
+        let colors =
+            colors.then(|| one_a_pixel("blended colours", size_of::<Color>())).transpose()?;
+        let work = counting.then(|| one_a_pixel("work", size_of::<Work>())).transpose()?;
+
+        let mut buffers = vec![(0, &view), (1, &rays), (2, &hits), (3, &status)];
+        buffers.extend(colors.as_ref().map(|buffer| (4, buffer)));
+        buffers.extend(work.as_ref().map(|buffer| (5, buffer)));
+        let layout = layout_of(gpu, colors.is_some(), work.is_some());
+        let bind_group = gpu.checked(|| group(gpu, "frame", &layout, &buffers))?;
+        let free_rays = RayPass::free(gpu, &view, &rays, &hits)?;
+        Ok(Self {
+            width,
+            height,
+            bind_group,
+            clock: Clock::new(gpu)?,
+            in_use: AtomicBool::new(false),
+            free_rays,
+            stopped_rays: OnceLock::new(),
+            view,
+            rays,
+            hits,
+            status,
+            colors,
+            work,
+        })
+    }
+
+    /// Pixels across.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Workgroups across and down of a pass with one invocation a pixel and [`TILE`]² of them in a
+    /// workgroup.
+    pub fn workgroups(&self) -> (u32, u32) {
+        (self.width.div_ceil(TILE), self.height.div_ceil(TILE))
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        let optional = [&self.colors, &self.work].into_iter().flatten();
+        let always = [&self.view, &self.rays, &self.hits, &self.status].into_iter();
+        always.chain(optional).map(wgpu::Buffer::size).sum()
+    }
+
+    /// Group 0.
+    pub fn bind_group(&self) -> &wgpu::BindGroup {
+        &self.bind_group
+    }
+
+    /// The rays of the last frame: 16 bytes a pixel, direction and greatest t.
+    pub fn rays(&self) -> &wgpu::Buffer {
+        &self.rays
+    }
+
+    /// One [`PackedHit`] a pixel.
+    pub fn hits(&self) -> &wgpu::Buffer {
+        &self.hits
+    }
+
+    /// One sRGB-encoded [`Color`] a pixel, if asked for.
+    pub fn colors(&self) -> Option<&wgpu::Buffer> {
+        self.colors.as_ref()
+    }
+
+    /// One [`Work`] a pixel, if asked for.
+    pub fn work(&self) -> Option<&wgpu::Buffer> {
+        self.work.as_ref()
+    }
+
+    /// What the last frame found, row by row from the top left. A pixel that its method did not
+    /// write is undecided.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn read_hits(&self, gpu: &Gpu) -> Result<Vec<Hit>, RenderError> {
+        Ok(gpu.read::<PackedHit>(&self.hits)?.into_iter().map(PackedHit::unpack).collect())
+    }
+
+    /// Puts hits in the place of what the last frame found, row by row from the top left, so that
+    /// the shared shading shows them: the reference's, for one.
+    ///
+    /// # Errors
+    /// When there is not one for each pixel, or the device fails.
+    pub fn write_hits(&self, gpu: &Gpu, hits: &[Hit]) -> Result<(), RenderError> {
+        let needed = self.width as usize * self.height as usize;
+        if hits.len() != needed {
+            return Err(RenderError::HitCount { needed, found: hits.len() });
+        }
+        let packed: Vec<_> = hits.iter().copied().map(PackedHit::from).collect();
+        gpu.checked(|| gpu.queue.write_buffer(&self.hits, 0, bytemuck::cast_slice(&packed)))
+    }
+
+    /// The last frame's rays, bit for bit as the shaders saw them. `view` is that frame's.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn read_rays(&self, gpu: &Gpu, view: &View) -> Result<Vec<Ray>, RenderError> {
+        let origin = view.camera().eye();
+        let unpack = |ray: PackedRay| Ray { origin, direction: ray.direction, t_max: ray.t_max };
+        Ok(gpu.read::<PackedRay>(&self.rays)?.into_iter().map(unpack).collect())
+    }
+
+    /// The last frame's blended colours; meaningless where there is no hit.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn read_colors(&self, gpu: &Gpu) -> Result<Option<Vec<Color>>, RenderError> {
+        self.colors.as_ref().map(|buffer| gpu.read(buffer)).transpose()
+    }
+
+    /// What the last frame's pixels cost.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn read_work(&self, gpu: &Gpu) -> Result<Option<Vec<Work>>, RenderError> {
+        self.work.as_ref().map(|buffer| gpu.read(buffer)).transpose()
+    }
+
+    /// The pass that makes this view's rays, with the view's solid scene on its way to the device.
+    pub(super) fn ray_pass(&self, gpu: &Gpu, view: &View) -> Result<&RayPass, RenderError> {
+        let Some(distances) = view.opaque_distance() else { return Ok(&self.free_rays) };
+        let pass = match self.stopped_rays.get() {
+            Some(pass) => pass,
+            None => {
+                let pass = RayPass::stopped(gpu, &self.view, &self.rays, &self.hits)?;
+                self.stopped_rays.get_or_init(|| pass)
+            }
+        };
+        pass.stop_at(gpu, distances)?;
+        Ok(pass)
+    }
+}
+
+/// Layout of group 0. What a specialisation does not use is not in it.
+pub fn frame_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
+    layout_of(gpu, spec.colors, spec.counting)
+}
+
+fn layout_of(gpu: &Gpu, colors: bool, counting: bool) -> wgpu::BindGroupLayout {
+    let mut bindings =
+        vec![(0, Binding::Uniform), (1, Binding::Read), (2, Binding::Write), (3, Binding::Write)];
+    bindings.extend(colors.then_some((4, Binding::Write)));
+    bindings.extend(counting.then_some((5, Binding::Write)));
+    layout(gpu, "frame", &bindings)
+}

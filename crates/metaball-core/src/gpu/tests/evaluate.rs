@@ -1,0 +1,104 @@
+//! Functions of the shared modules, evaluated on the device.
+
+use glam::{Vec3, Vec4};
+use metaball_shaders::Module;
+
+use crate::gpu::layout::{Binding, group, layout};
+use crate::gpu::{Gpu, Shader, Specialization};
+use crate::{Kernel, PackedHit};
+
+/// What entry `evaluate` of the module makes of each value.
+fn evaluate(gpu: &Gpu, module: &Module, spec: &Specialization, inputs: &[Vec4]) -> Vec<Vec4> {
+    let bindings = layout(gpu, "values", &[(0, Binding::Read), (1, Binding::Write)]);
+    let shader = Shader::of_module(gpu, module, spec).expect("composes");
+    let pipeline = shader
+        .compute(gpu, "evaluate", "evaluate", spec, &[&bindings], &[])
+        .expect("makes a pipeline");
+    let none = wgpu::BufferUsages::empty();
+    let inputs = gpu.upload("inputs", inputs, none).expect("small");
+    let outputs = gpu.storage("outputs", inputs.size(), none).expect("small");
+    let values = group(gpu, "values", &bindings, &[(0, &inputs), (1, &outputs)]);
+    gpu.checked(|| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &values, &[]);
+        pass.dispatch_workgroups((inputs.size() / 16).div_ceil(64) as u32, 1, 1);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+    })
+    .expect("runs");
+    gpu.read(&outputs).expect("reads")
+}
+
+/// Points spread evenly over the unit sphere, and the corners and edges of the octahedron.
+fn normals() -> Vec<Vec3> {
+    let spiral = (0..2000).map(|index| {
+        let z = (f64::from(index) + 0.5) / 1000.0 - 1.0;
+        let (sine, cosine) = (2.399_963_229_728_653 * f64::from(index)).sin_cos();
+        let radius = (1.0 - z * z).sqrt();
+        glam::DVec3::new(radius * cosine, radius * sine, z).as_vec3()
+    });
+    let signs = [-1.0, -0.0, 0.0, 1.0];
+    let corners = (0..64).map(|index| {
+        Vec3::new(signs[index & 3], signs[index >> 2 & 3], signs[index >> 4]).normalize_or_zero()
+    });
+    spiral.chain(corners).filter(|normal| *normal != Vec3::ZERO).collect()
+}
+
+/// With u = 2⁻²⁴: the sum of three numbers errs by 2u and the division by 5u where WGSL's 2.5 units
+/// are used up, so x and y together by 7u; z = 1 − |x| − |y| by 7u + 2u. The vector so found is at least
+/// 1/√3 long, so its direction errs by √(7² + 9²)·√3·u = 20u, and the last normalisation by 3u more.
+#[test]
+fn normals_survive_packing() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let source = "#import metaball::hit::{fold, unfold}
+        @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;
+        @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;
+        @compute @workgroup_size(64)
+        fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
+            let folded = fold(inputs[invocation.x].xyz);
+            outputs[invocation.x] = vec4(folded, unfold(folded).xy);
+        }";
+    let module = Module { name: "test", source, is_entry: true };
+    let normals = normals();
+    let inputs: Vec<_> = normals.iter().map(|normal| normal.extend(0.0)).collect();
+    let outputs = evaluate(&gpu, &module, &Specialization::without_balls(), &inputs);
+    let tolerance = 23.0 * 0.5f32.powi(24);
+    for (normal, output) in normals.iter().zip(outputs) {
+        let packed = PackedHit { normal: [output.x, output.y], t: 1.0, status: 1 };
+        let error = (packed.unpack().normal - normal).length();
+        assert!(error < tolerance, "{normal}: {error:e}");
+        let error = (normal.truncate() - glam::Vec2::new(output.z, output.w)).length();
+        assert!(error < tolerance, "{normal} unfolded on the device: {error:e}");
+    }
+}
+
+/// Both sides multiply in the same order. A compiler may contract or reorder, and WGSL allows square
+/// roots and divisions 2.5 units: less than 8 roundings of values up to 1, or up to 8 for slopes.
+/// Perlin's kernel near the rim has ρ to u, so (1 − ρ)² times 90u at most.
+#[test]
+fn kernels_are_those_of_the_host() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let source = "#import metaball::kernel::{kernel, kernel_slope}
+        @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;
+        @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;
+        @compute @workgroup_size(64)
+        fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
+            let v = inputs[invocation.x].x;
+            outputs[invocation.x] = vec4(kernel(v), kernel_slope(v), 0.0, 0.0);
+        }";
+    let module = Module { name: "test", source, is_entry: true };
+    let depths: Vec<_> = (-20..=1000).map(|step| step as f32 / 1000.0).collect();
+    let inputs: Vec<_> = depths.iter().map(|v| Vec4::splat(*v)).collect();
+    for kernel in Kernel::all() {
+        let spec = Specialization { kernel, ..Specialization::without_balls() };
+        let outputs = evaluate(&gpu, &module, &spec, &inputs);
+        for (v, output) in depths.iter().zip(outputs) {
+            let value = (output.x - kernel.value_at_depth(*v)).abs();
+            let slope = (output.y - kernel.slope_at_depth(*v)).abs();
+            assert!(value <= 8.0 * 0.5f32.powi(24), "{kernel} at {v}: {value:e}");
+            assert!(slope <= 64.0 * 0.5f32.powi(24), "slope of {kernel} at {v}: {slope:e}");
+        }
+    }
+}

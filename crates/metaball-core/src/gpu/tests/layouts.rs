@@ -1,0 +1,52 @@
+//! Host structs against their WGSL twins.
+
+use metaball_shaders::{StructLayout, Variant, compose, host_layout, struct_layout};
+
+use crate::gpu::spheres::CoreSphere;
+use crate::gpu::{FrameStatus, PackedRay, SceneHeader, ValueRange, ViewUniform, Work};
+use crate::{PackedHit, Support};
+
+fn wgsl(module: &str, name: &str) -> StructLayout {
+    let variant = Variant::all().next().expect("there are variants");
+    let module = compose(module, &variant).expect("composes");
+    struct_layout(&module, name).expect("the module has the struct")
+}
+
+#[test]
+fn host_structs_are_their_twins() {
+    let twins = [
+        (wgsl("core/hit", "Hit"), host_layout!(PackedHit { normal, t, status })),
+        (wgsl("core/view", "Ray"), host_layout!(PackedRay { direction, t_max })),
+        (
+            wgsl("core/view", "View"),
+            host_layout!(ViewUniform { eye, width, right, height, up, half_pixel, forward }),
+        ),
+        (wgsl("core/status", "Status"), host_layout!(FrameStatus { unfinished, needed })),
+        (wgsl("core/scene", "Support"), host_layout!(Support { center, radius })),
+        (wgsl("core/scene", "SceneHeader"), host_layout!(SceneHeader { threshold, balls })),
+        (
+            wgsl("work/record", "Work"),
+            host_layout!(Work { nodes, leaf_tests, balls, evaluations, iterations, layers }),
+        ),
+        (wgsl("shade/picture", "ValueRange"), host_layout!(ValueRange { low, high })),
+        (
+            wgsl("shade/spheres", "CoreSphere"),
+            host_layout!(CoreSphere { center, radius, color, half_depth }),
+        ),
+    ];
+    for (device, host) in twins {
+        assert_eq!(device, host);
+    }
+}
+
+#[test]
+fn swapped_fields_are_noticed() {
+    #[repr(C)]
+    struct Swapped {
+        t: f32,
+        normal: [f32; 2],
+        status: u32,
+    }
+    assert_ne!(wgsl("core/hit", "Hit"), host_layout!(Swapped { normal, t, status }));
+    assert_ne!(wgsl("core/hit", "Hit"), host_layout!(Swapped { t, normal, status }));
+}

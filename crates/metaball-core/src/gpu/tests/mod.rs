@@ -1,0 +1,8 @@
+//! The shared part on a real device, with a renderer that needs no structure: one sphere.
+
+mod evaluate;
+mod frames;
+mod layouts;
+mod pictures;
+mod rays;
+mod sphere;

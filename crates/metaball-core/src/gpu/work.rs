@@ -1,0 +1,79 @@
+//! Work counters.
+
+use std::fmt;
+
+use bytemuck::{Pod, Zeroable};
+
+/// What one pixel cost: WGSL's `Work` of `work/counted.wgsl`. Exists only while counting.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct Work {
+    /// Nodes of a structure visited.
+    pub nodes: u32,
+    /// Intersection tests between the ray and a leaf, layer or interval.
+    pub leaf_tests: u32,
+    /// Balls looked at.
+    pub balls: u32,
+    /// Evaluations of one ball's kernel.
+    pub evaluations: u32,
+    /// Steps of a root finder.
+    pub iterations: u32,
+    /// Peeled layers or list entries gone through.
+    pub layers: u32,
+}
+
+/// A counter of [`Work`], by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum WorkKind {
+    /// [`Work::nodes`].
+    Nodes = 0,
+    /// [`Work::leaf_tests`].
+    LeafTests = 1,
+    /// [`Work::balls`].
+    Balls = 2,
+    /// [`Work::evaluations`].
+    Evaluations = 3,
+    /// [`Work::iterations`].
+    Iterations = 4,
+    /// [`Work::layers`].
+    Layers = 5,
+}
+
+impl WorkKind {
+    /// Every counter.
+    pub const ALL: [Self; 6] = [
+        Self::Nodes,
+        Self::LeafTests,
+        Self::Balls,
+        Self::Evaluations,
+        Self::Iterations,
+        Self::Layers,
+    ];
+
+    /// The counter's value.
+    pub fn of(self, work: &Work) -> u32 {
+        match self {
+            Self::Nodes => work.nodes,
+            Self::LeafTests => work.leaf_tests,
+            Self::Balls => work.balls,
+            Self::Evaluations => work.evaluations,
+            Self::Iterations => work.iterations,
+            Self::Layers => work.layers,
+        }
+    }
+}
+
+impl fmt::Display for WorkKind {
+    /// The name that tables use, such as `leaf tests`.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Nodes => "nodes",
+            Self::LeafTests => "leaf tests",
+            Self::Balls => "balls",
+            Self::Evaluations => "evaluations",
+            Self::Iterations => "iterations",
+            Self::Layers => "layers",
+        })
+    }
+}

@@ -1,0 +1,160 @@
+//! Rays, and what is found along them.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+/// A ray as every method, shader and reference sees it, bit for bit: the points
+/// `origin + t * direction` with 0 ≤ t ≤ `t_max`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    /// Start, world space, scene units.
+    pub origin: Vec3,
+    /// Direction, unit to rounding (6e-8). Never normalised again: t counts in this vector.
+    pub direction: Vec3,
+    /// Where an opaque thing ends the ray; [`NO_LIMIT`] where nothing does.
+    pub t_max: f32,
+}
+
+impl Ray {
+    /// A ray that nothing opaque ends.
+    pub const fn new(origin: Vec3, direction: Vec3) -> Self {
+        Self { origin, direction, t_max: NO_LIMIT }
+    }
+}
+
+/// The greatest finite f32: WGSL has no infinity to rely on.
+pub const NO_LIMIT: f32 = f32::MAX;
+
+/// What is known of a ray.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Verdict {
+    /// The field stays below T along the whole ray.
+    Miss = 0,
+    /// The field first reaches T at the hit's distance.
+    Hit = 1,
+    /// The field is T or more where the ray starts; the hit is there, at t = 0.
+    Inside = 2,
+    /// Arithmetic could not tell, to the last float. Only certified variants say so.
+    Undecided = 3,
+}
+
+/// What a method found along one ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// What is known of the ray.
+    pub verdict: Verdict,
+    /// Whether a published rule for trouble made this pixel, in place of the method proper.
+    pub fallback: bool,
+    /// Distance along the ray in scene units; infinite for a miss.
+    pub t: f32,
+    /// Unit vector out of the surface, against the field's gradient; zero for a miss.
+    pub normal: Vec3,
+}
+
+impl Hit {
+    /// A ray that hits nothing.
+    pub const MISS: Self =
+        Self { verdict: Verdict::Miss, fallback: false, t: f32::INFINITY, normal: Vec3::ZERO };
+
+    /// Whether there is a surface point: a hit, or a start inside.
+    pub fn is_hit(&self) -> bool {
+        matches!(self.verdict, Verdict::Hit | Verdict::Inside)
+    }
+}
+
+/// A hit as shaders write it, sixteen bytes: WGSL's `Hit` of `core/hit.wgsl`. The normal is folded
+/// onto an octahedron (Cigolle et al. 2014) in full f32, which keeps it to 1e-7.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct PackedHit {
+    /// Octahedral coordinates of the unit outward normal, each in \[−1, 1\].
+    pub normal: [f32; 2],
+    /// Distance along the ray; 0 for a miss.
+    pub t: f32,
+    /// The verdict's number in the low byte, plus [`PackedHit::FALLBACK`].
+    pub status: u32,
+}
+
+impl PackedHit {
+    /// The bit of `status` that marks a fallback pixel.
+    pub const FALLBACK: u32 = 1 << 8;
+
+    /// Unpacks what a shader wrote. A status that no shader writes reads as undecided.
+    pub fn unpack(self) -> Hit {
+        let fallback = self.status & Self::FALLBACK != 0;
+        let verdict = match self.status & 0xff {
+            0 => return Hit { fallback, ..Hit::MISS },
+            1 => Verdict::Hit,
+            2 => Verdict::Inside,
+            _ => Verdict::Undecided,
+        };
+        Hit { verdict, fallback, t: self.t, normal: unfold(self.normal) }
+    }
+}
+
+impl From<Hit> for PackedHit {
+    /// As a shader would write it. A miss has no distance.
+    fn from(hit: Hit) -> Self {
+        let fallback = if hit.fallback { Self::FALLBACK } else { 0 };
+        let status = hit.verdict as u32 | fallback;
+        if !hit.is_hit() {
+            return Self { normal: [0.0; 2], t: 0.0, status };
+        }
+        Self { normal: fold(hit.normal), t: hit.t, status }
+    }
+}
+
+/// Octahedral coordinates of a unit vector.
+fn fold(normal: Vec3) -> [f32; 2] {
+    let n = normal / normal.abs().element_sum().max(f32::MIN_POSITIVE);
+    if n.z >= 0.0 {
+        [n.x, n.y]
+    } else {
+        [(1.0 - n.y.abs()).copysign(n.x), (1.0 - n.x.abs()).copysign(n.y)]
+    }
+}
+
+/// The unit vector at octahedral coordinates.
+fn unfold([x, y]: [f32; 2]) -> Vec3 {
+    let z = 1.0 - x.abs() - y.abs();
+    let (x, y) =
+        if z >= 0.0 { (x, y) } else { ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)) };
+    Vec3::new(x, y, z).normalize_or_zero()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_of_the_octahedron() {
+        assert_eq!(unfold([0.0, 0.0]), Vec3::Z);
+        assert_eq!(unfold([1.0, 0.0]), Vec3::X);
+        assert_eq!(unfold([0.0, -1.0]), Vec3::NEG_Y);
+        assert_eq!(unfold([1.0, 1.0]), Vec3::NEG_Z);
+    }
+
+    /// Folding and unfolding make about six roundings of 6e-8 on coordinates up to 1, which the
+    /// normalisation stretches by at most √3.
+    #[test]
+    fn what_is_packed_unpacks() {
+        for normal in [Vec3::new(0.6, -0.48, 0.64), Vec3::new(-0.6, 0.48, -0.64), Vec3::NEG_Z] {
+            let hit = Hit { verdict: Verdict::Hit, fallback: true, t: 3.0, normal };
+            let back = PackedHit::from(hit).unpack();
+            assert!((back.normal - normal).length() < 6e-7);
+            assert_eq!(Hit { normal, ..back }, hit);
+        }
+        assert_eq!(PackedHit::from(Hit::MISS).unpack(), Hit::MISS);
+    }
+
+    #[test]
+    fn packed_statuses() {
+        let packed = |status| PackedHit { normal: [0.0; 2], t: 2.0, status }.unpack();
+        assert_eq!(packed(0), Hit::MISS);
+        assert_eq!(packed(1).t, 2.0);
+        assert_eq!(packed(2).verdict, Verdict::Inside);
+        assert!(packed(PackedHit::FALLBACK | 1).fallback);
+        assert_eq!(packed(77).verdict, Verdict::Undecided);
+    }
+}

@@ -1,0 +1,177 @@
+//! The reference: exact first hits in f64, on the CPU, independent of every method.
+//!
+//! The oracle is true to the stored f32 scene along the given f32 ray: it takes both as exact
+//! numbers and looks at the points `origin + t * direction` with the direction as stored.
+//!
+//! # Theory
+//! Along a ray each ball's v = 1 − r²/R² is a parabola, positive on the ball's *chord*. The ends of
+//! all chords cut the ray into *segments* with a fixed set of balls. There the field is one
+//! polynomial for the kernels that have [coefficients](crate::Kernel::coefficients), and twice
+//! continuously differentiable for Perlin's. A segment is halved until each *piece* is certainly
+//! below T, certainly above, or monotonic:
+//!
+//! - polynomials in Bernstein form (Farouki 2012, "The Bernstein polynomial basis: a centennial
+//!   retrospective"), whose coefficients enclose the values and whose differences enclose the slope;
+//! - Perlin's kernel by the exact range of each ball, which rises and then falls along the ray,
+//!   and by bounds of the second derivative.
+//!
+//! The crossing in a monotonic piece is then found on the field itself. Pieces are visited front to
+//! back, and the walk ends where the first sheet is left.
+//!
+//! # Practice
+//! Nothing is lost to distance: each ball is measured from a point of the ray beside it, and each
+//! segment has its own origin. What remains is the rounding of f64, n·2e-16 of the summed field for
+//! n balls that overlap. That moves a crossing by as much divided by the slope there, beyond the
+//! 1e-12 relative that t is otherwise good for: where a ray grazes, t is known to the square root
+//! only, and [`Truth::margin`] says so.
+//!
+//! [`march`] is a second oracle, slow and plain, which shares none of this; tests hold one against
+//! the other.
+
+mod bernstein;
+mod chord;
+mod marching;
+mod perlin;
+mod stretch;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod walk;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+pub use marching::{March, march};
+
+use self::{
+    chord::{Chord, Line},
+    stretch::sweep,
+    tree::Tree,
+    walk::Walk,
+};
+use crate::{Metaball, Ray, Scene, Verdict};
+
+/// A scene made ready for exact questions.
+#[derive(Debug)]
+pub struct Oracle<'a> {
+    scene: &'a Scene,
+    tree: Tree,
+}
+
+/// What is true of a ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Truth {
+    /// `Miss`, `Hit` or `Inside`; never `Undecided`.
+    pub verdict: Verdict,
+    /// Distance of the first hit, along the ray's direction as stored; 0 inside, +∞ for a miss.
+    pub t: f64,
+    /// Where the field falls below T again after that; `t_max` where the ray ends first, +∞ for a
+    /// miss.
+    pub leaves: f64,
+    /// Unit vector out of the solid, against the gradient; zero for a miss, and where the gradient
+    /// vanishes (as in the middle of a lone ball).
+    pub normal: DVec3,
+    /// How clear the verdict is: the least |F − T|/T, good to 1e-9, over
+    ///
+    /// - the field where the ray starts,
+    /// - every local maximum before the hit, or of the whole ray for a miss,
+    /// - the maximum from the hit to where the field falls below T again,
+    /// - the field where the ray ends, if it ends before the hit.
+    ///
+    /// Raising or lowering the whole field by less than this share of T gives the same first sheet.
+    pub margin: f64,
+    /// Least support radius, scene units, among the balls whose support holds the hit; 0 for a miss.
+    pub smallest_radius: f32,
+}
+
+impl Truth {
+    /// The margin up to which a ray is called ambiguous: f32 arithmetic sums tens of balls to 1e-5.
+    pub const AMBIGUOUS: f64 = 1e-5;
+
+    /// Whether a method in f32 cannot be blamed for another verdict.
+    pub fn is_ambiguous(&self) -> bool {
+        self.margin <= Self::AMBIGUOUS
+    }
+}
+
+impl<'a> Oracle<'a> {
+    /// Sorts the balls for search.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, tree: Tree::new(scene.supports()) }
+    }
+
+    /// The first hit. A ray with a NaN, or without a direction, sees only the point it starts from;
+    /// a negative `t_max` counts as 0.
+    pub fn first_hit(&self, ray: &Ray) -> Truth {
+        let threshold = f64::from(self.scene.threshold());
+        let line = Line::new(ray);
+        let mut walk = Walk::new(threshold, self.field(line.origin));
+        sweep(&self.chords(&line), line.end, self.scene.kernel(), &mut walk);
+        walk.end(line.end, self.field(line.at(line.end)));
+
+        let (verdict, t) = walk.first_hit();
+        let (normal, smallest_radius) = if verdict == Verdict::Miss {
+            (DVec3::ZERO, 0.0)
+        } else {
+            (self.normal(line.at(t)), self.smallest_radius(line.at(t)))
+        };
+        Truth { verdict, t, leaves: walk.leaves(), normal, margin: walk.margin(), smallest_radius }
+    }
+
+    /// The first hit of each ray, in the order of the rays, on all cores.
+    pub fn first_hits(&self, rays: &[Ray]) -> Vec<Truth> {
+        rays.par_iter().map(|ray| self.first_hit(ray)).collect()
+    }
+
+    /// The field at a point in world space.
+    pub fn field(&self, point: DVec3) -> f64 {
+        let mut sum = 0.0;
+        self.for_each_ball_at(point, |ball, _, squared_ratio| {
+            sum += f64::from(ball.strength) * self.scene.kernel().value(squared_ratio);
+        });
+        sum
+    }
+
+    /// The unit vector against the field's gradient at a point in world space; zero where the
+    /// gradient vanishes.
+    pub fn normal(&self, point: DVec3) -> DVec3 {
+        let mut outward = DVec3::ZERO;
+        self.for_each_ball_at(point, |ball, offset, squared_ratio| {
+            let radius = f64::from(ball.radius);
+            let slope = f64::from(ball.strength) * self.scene.kernel().slope(squared_ratio);
+            outward -= slope / (radius * radius) * offset;
+        });
+        outward.normalize_or_zero()
+    }
+
+    /// The least radius of the supports that hold the point; 0 when none does.
+    fn smallest_radius(&self, point: DVec3) -> f32 {
+        let mut smallest = f32::INFINITY;
+        self.for_each_ball_at(point, |ball, _, _| smallest = smallest.min(ball.radius));
+        if smallest.is_finite() { smallest } else { 0.0 }
+    }
+
+    /// Visits the balls whose support holds the point, with the offset of the point from the centre
+    /// and r²/R².
+    fn for_each_ball_at(&self, point: DVec3, mut visit: impl FnMut(&Metaball, DVec3, f64)) {
+        let holds = |min: DVec3, max: DVec3| point.cmpge(min).all() && point.cmple(max).all();
+        self.tree.for_each(holds, |index| {
+            let ball = self.scene.ball(index);
+            let offset = point - ball.center.as_dvec3();
+            let squared_ratio = offset.length_squared() / f64::from(ball.radius).powi(2);
+            if squared_ratio < 1.0 {
+                visit(&ball, offset, squared_ratio);
+            }
+        });
+    }
+
+    /// The chords of all balls that the line crosses between its start and its end.
+    fn chords(&self, line: &Line) -> Vec<Chord> {
+        let mut chords = Vec::new();
+        self.tree.for_each(
+            |min, max| line.meets(min, max),
+            |index| chords.extend(Chord::new(line, &self.scene.ball(index))),
+        );
+        chords
+    }
+}

@@ -1,0 +1,262 @@
+//! A scene: balls, one kernel, one threshold, and nothing that no scene uses.
+
+use glam::Vec3;
+use thiserror::Error;
+
+use crate::{Aabb, Color, Kernel, Metaball, Support};
+
+/// Balls, their kernel and the threshold T: the surface is where the field equals T.
+///
+/// What all balls have in common is not stored: a scene in which every strength is 1 keeps no
+/// strengths, one without colours keeps no colours, and neither reaches a shader.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    supports: Vec<Support>,
+    strengths: Option<Vec<f32>>,
+    colors: Option<Vec<Color>>,
+    kernel: Kernel,
+    threshold: f32,
+}
+
+/// Least and greatest support radius: the square and its inverse are normal f32 numbers.
+pub const RADIUS_LIMITS: (f32, f32) = (1e-18, 1e18);
+
+/// Why something is no scene. A ball is named by its index, from 0.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// A coordinate is NaN, infinite, or too large to be squared in f32.
+    #[error("ball {index}: needed a finite centre with coordinates up to 1e18, found {found}")]
+    Center {
+        /// Index of the ball.
+        index: usize,
+        /// Its centre.
+        found: Vec3,
+    },
+    /// The support radius is not a positive number of usable size.
+    #[error("ball {index}: needed a support radius from 1e-18 to 1e18, found {found}")]
+    Radius {
+        /// Index of the ball.
+        index: usize,
+        /// Its radius.
+        found: f32,
+    },
+    /// The strength is not a positive finite number.
+    #[error("ball {index}: needed a finite strength above 0, found {found}")]
+    Strength {
+        /// Index of the ball.
+        index: usize,
+        /// Its strength.
+        found: f32,
+    },
+    /// The threshold is not a positive finite number.
+    #[error("threshold: needed a finite number above 0, found {found}")]
+    Threshold {
+        /// The threshold.
+        found: f32,
+    },
+    /// There are more or fewer colours than balls.
+    #[error("colours: needed one for each of {balls} balls, found {found}")]
+    Colors {
+        /// Number of balls.
+        balls: usize,
+        /// Number of colours.
+        found: usize,
+    },
+    /// More balls than an index of 32 bits can name.
+    #[error("needed at most {} balls, found {found}", u32::MAX)]
+    TooManyBalls {
+        /// Number of balls.
+        found: usize,
+    },
+}
+
+impl Scene {
+    /// Checks and stores the balls. No balls at all is a legal scene: an empty picture.
+    ///
+    /// # Errors
+    /// Names the first ball that is refused, or the threshold.
+    pub fn new(
+        balls: impl IntoIterator<Item = Metaball>,
+        kernel: Kernel,
+        threshold: f32,
+    ) -> Result<Self, SceneError> {
+        check_threshold(threshold)?;
+        let mut supports = Vec::new();
+        let mut strengths = Vec::new();
+        for (index, ball) in balls.into_iter().enumerate() {
+            check_ball(index, &ball)?;
+            supports.push(Support { center: ball.center, radius: ball.radius });
+            strengths.push(ball.strength);
+        }
+        if u32::try_from(supports.len()).is_err() {
+            return Err(SceneError::TooManyBalls { found: supports.len() });
+        }
+        let strengths = strengths.iter().any(|&strength| strength != 1.0).then_some(strengths);
+        Ok(Self { supports, strengths, colors: None, kernel, threshold })
+    }
+
+    /// Gives each ball a colour.
+    ///
+    /// # Errors
+    /// When there is not exactly one colour for each ball.
+    pub fn with_colors(mut self, colors: Vec<Color>) -> Result<Self, SceneError> {
+        if colors.len() != self.len() {
+            return Err(SceneError::Colors { balls: self.len(), found: colors.len() });
+        }
+        self.colors = Some(colors);
+        Ok(self)
+    }
+
+    /// The same balls under another kernel.
+    #[must_use]
+    pub fn with_kernel(mut self, kernel: Kernel) -> Self {
+        self.kernel = kernel;
+        self
+    }
+
+    /// The same field with its surface at another threshold.
+    ///
+    /// # Errors
+    /// When the threshold is not a finite number above 0.
+    pub fn with_threshold(mut self, threshold: f32) -> Result<Self, SceneError> {
+        check_threshold(threshold)?;
+        self.threshold = threshold;
+        Ok(self)
+    }
+
+    /// Number of balls.
+    pub fn len(&self) -> usize {
+        self.supports.len()
+    }
+
+    /// Whether there is no ball.
+    pub fn is_empty(&self) -> bool {
+        self.supports.is_empty()
+    }
+
+    /// Support spheres of the balls, in the order given.
+    pub fn supports(&self) -> &[Support] {
+        &self.supports
+    }
+
+    /// Strengths of the balls; `None` when all are 1.
+    pub fn strengths(&self) -> Option<&[f32]> {
+        self.strengths.as_deref()
+    }
+
+    /// Colours of the balls, if the scene has any.
+    pub fn colors(&self) -> Option<&[Color]> {
+        self.colors.as_deref()
+    }
+
+    /// The ball at `index`. Panics when there is none, as slices do.
+    pub fn ball(&self, index: usize) -> Metaball {
+        let Support { center, radius } = self.supports[index];
+        let strength = self.strengths.as_ref().map_or(1.0, |strengths| strengths[index]);
+        Metaball { center, radius, strength }
+    }
+
+    /// All balls, in the order given.
+    pub fn balls(&self) -> impl ExactSizeIterator<Item = Metaball> + '_ {
+        (0..self.len()).map(|index| self.ball(index))
+    }
+
+    /// The falloff of all balls.
+    pub fn kernel(&self) -> Kernel {
+        self.kernel
+    }
+
+    /// T: the field on the surface.
+    pub fn threshold(&self) -> f32 {
+        self.threshold
+    }
+
+    /// The smallest box around all support spheres; empty for an empty scene.
+    pub fn bounds(&self) -> Aabb {
+        self.supports.iter().fold(Aabb::EMPTY, |bounds, support| {
+            bounds.union(&Aabb::around_sphere(support.center, support.radius))
+        })
+    }
+}
+
+fn check_threshold(threshold: f32) -> Result<(), SceneError> {
+    if threshold.is_finite() && threshold > 0.0 {
+        Ok(())
+    } else {
+        Err(SceneError::Threshold { found: threshold })
+    }
+}
+
+fn check_ball(index: usize, ball: &Metaball) -> Result<(), SceneError> {
+    let usable = |coordinate: f32| coordinate.abs() <= RADIUS_LIMITS.1;
+    if !ball.center.to_array().into_iter().all(usable) {
+        return Err(SceneError::Center { index, found: ball.center });
+    }
+    if !(RADIUS_LIMITS.0..=RADIUS_LIMITS.1).contains(&ball.radius) {
+        return Err(SceneError::Radius { index, found: ball.radius });
+    }
+    if !(ball.strength.is_finite() && ball.strength > 0.0) {
+        return Err(SceneError::Strength { index, found: ball.strength });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ball(radius: f32, strength: f32) -> Metaball {
+        Metaball { center: Vec3::ZERO, radius, strength }
+    }
+
+    #[test]
+    fn refusals_name_the_ball_and_the_value() {
+        let message = |balls: &[Metaball], threshold| {
+            Scene::new(balls.iter().copied(), Kernel::Wyvill, threshold)
+                .expect_err("refused")
+                .to_string()
+        };
+        let good = ball(1.0, 1.0);
+        assert_eq!(
+            message(&[good, ball(0.0, 1.0)], 0.5),
+            "ball 1: needed a support radius from 1e-18 to 1e18, found 0"
+        );
+        assert!(message(&[ball(-1.0, 1.0)], 0.5).starts_with("ball 0: needed a support radius"));
+        assert!(message(&[ball(f32::NAN, 1.0)], 0.5).ends_with("found NaN"));
+        assert!(
+            message(&[good, good, ball(1.0, 0.0)], 0.5)
+                .starts_with("ball 2: needed a finite strength")
+        );
+        assert!(message(&[ball(1.0, f32::INFINITY)], 0.5).ends_with("found inf"));
+        for center in [Vec3::NAN, Vec3::X * f32::INFINITY, Vec3::new(0.0, f32::NAN, 0.0)] {
+            let broken = Metaball { center, ..good };
+            assert!(message(&[broken], 0.5).starts_with("ball 0: needed a finite centre"));
+        }
+        for threshold in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            assert!(message(&[good], threshold).starts_with("threshold: needed"));
+        }
+    }
+
+    #[test]
+    fn colours_must_match_the_balls() {
+        let scene = Scene::new([ball(1.0, 1.0)], Kernel::QUARTIC, 0.5).expect("legal");
+        let error = scene.with_colors(Vec::new()).expect_err("refused");
+        assert_eq!(error, SceneError::Colors { balls: 1, found: 0 });
+    }
+
+    #[test]
+    fn unit_strengths_are_not_stored() {
+        let scene =
+            |strength| Scene::new([ball(1.0, strength)], Kernel::QUARTIC, 0.5).expect("legal");
+        assert_eq!(scene(1.0).strengths(), None);
+        assert_eq!(scene(2.0).strengths(), Some(&[2.0][..]));
+        assert_eq!(scene(2.0).ball(0).strength, 2.0);
+    }
+
+    #[test]
+    fn an_empty_scene_is_legal() {
+        let scene = Scene::new([], Kernel::Perlin, 0.5).expect("legal");
+        assert!(scene.is_empty() && scene.bounds().is_empty());
+    }
+}

@@ -1,0 +1,89 @@
+//! The table of modules. A new WGSL file is one line here.
+
+/// A WGSL file.
+#[derive(Debug, Clone, Copy)]
+pub struct Module {
+    /// Path below `wgsl/` without the extension, such as `core/view`.
+    pub name: &'static str,
+    /// What the file holds.
+    pub source: &'static str,
+    /// Whether it holds entry points. What does not is imported by name.
+    pub is_entry: bool,
+}
+
+impl Module {
+    /// The path by which others import this module, if they can.
+    pub(crate) fn import_path(&self) -> Option<&'static str> {
+        self.directives("#define_import_path ").next()
+    }
+
+    /// What the module imports: the path of a module, or of an item in one.
+    pub(crate) fn imports(&self) -> impl Iterator<Item = &'static str> {
+        self.directives("#import ").map(|path| path.split("::{").next().unwrap_or(path))
+    }
+
+    fn directives(&self, keyword: &'static str) -> impl Iterator<Item = &'static str> {
+        self.source.lines().filter_map(move |line| line.strip_prefix(keyword)).map(str::trim)
+    }
+}
+
+macro_rules! module {
+    ($name:literal, $is_entry:literal) => {
+        Module {
+            name: $name,
+            source: include_str!(concat!("../wgsl/", $name, ".wgsl")),
+            is_entry: $is_entry,
+        }
+    };
+}
+
+macro_rules! entry {
+    ($name:literal) => {
+        module!($name, true)
+    };
+}
+
+macro_rules! import {
+    ($name:literal) => {
+        module!($name, false)
+    };
+}
+
+/// Every module. Where several define one import path, a [`Variant`](crate::Variant) chooses.
+pub const MODULES: &[Module] = &[
+    import!("core/view"),
+    import!("core/make_ray"),
+    entry!("core/rays"),
+    import!("opaque/none"),
+    import!("opaque/image"),
+    import!("core/hit"),
+    import!("core/status"),
+    import!("core/scene"),
+    import!("core/field"),
+    import!("kernel/power"),
+    import!("kernel/wyvill"),
+    import!("kernel/perlin"),
+    import!("strength/unit"),
+    import!("strength/varied"),
+    import!("color/srgb"),
+    import!("color/record"),
+    import!("color/none"),
+    import!("color/blended"),
+    import!("work/record"),
+    import!("work/off"),
+    import!("work/counted"),
+    import!("shade/picture"),
+    import!("shade/light"),
+    import!("shade/base_white"),
+    import!("shade/base_blended"),
+    entry!("shade/phong"),
+    entry!("shade/color"),
+    entry!("shade/normal"),
+    entry!("shade/depth"),
+    entry!("shade/work"),
+    entry!("shade/spheres"),
+    import!("fbvh/structure"),
+    import!("fbvh/suspend"),
+    import!("fbvh/leaf"),
+    entry!("fbvh/trace"),
+];

@@ -1,0 +1,8 @@
+// A scene without colours: blending is nothing.
+#define_import_path metaball::color
+
+fn blend_start() {}
+
+fn blend_add(ball: u32, weight: f32) {}
+
+fn blend_write(pixel: u32) {}

@@ -1,0 +1,19 @@
+// The first pass of every frame: the primary rays, and hits that nobody has found yet.
+
+#import metaball::view::{view, Ray, NO_LIMIT, in_picture, pixel_at}
+#import metaball::make_ray::direction_through
+#import metaball::hit::write_nothing
+#import metaball::opaque::opaque_distance
+
+// The buffer that methods read as `metaball::view::rays`.
+@group(0) @binding(1) var<storage, read_write> made_rays: array<Ray>;
+
+@compute @workgroup_size(8, 8)
+fn make_rays(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    if !in_picture(invocation.xy) {
+        return;
+    }
+    let pixel = pixel_at(invocation.xy);
+    made_rays[pixel] = Ray(direction_through(invocation.xy), opaque_distance(pixel));
+    write_nothing(pixel);
+}

@@ -1,0 +1,184 @@
+// Traces the rays of a view through a tree: the modified BVH or the Fitted BVH of Gourmel et al.
+// 2010. `trace` starts every ray, `resume` goes on with those that had to wait.
+
+#import metaball::color::{blend_add, blend_start, blend_write}
+#import metaball::fbvh::leaf
+#import metaball::fbvh::structure
+#import metaball::fbvh::suspend
+#import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
+#import metaball::hit
+#import metaball::scene::supports
+#import metaball::view::{in_picture, pixel_at, rays, view, Ray}
+#import metaball::work::{count_node, write_work}
+
+// The tree's root: a node, a leaf, or EMPTY.
+@id(21) override root: u32 = 0xffffffffu;
+
+// Depth is bounded when a tree is built: MAX_DEPTH of crates/fbvh/src/node.rs.
+const MAX_DEPTH: u32 = 64u;
+
+// Subtrees still to be visited, and where the ray enters them.
+var<private> stack: array<u32, MAX_DEPTH>;
+var<private> enters: array<f32, MAX_DEPTH>;
+var<private> depth: u32;
+
+// The nearest hit so far; `best_status` is MISS where there is none, `best_t` then the ray's end.
+var<private> best_t: f32;
+var<private> best_leaf: u32;
+var<private> best_status: u32;
+
+fn push(place: u32, enter: f32) {
+    stack[depth] = place;
+    enters[depth] = enter;
+    depth++;
+}
+
+// The next subtree that could hold a nearer hit, or EMPTY.
+fn pop() -> u32 {
+    while depth > 0u {
+        depth--;
+        suspend::spent++;
+        if enters[depth] < best_t {
+            return stack[depth];
+        }
+    }
+    return structure::EMPTY;
+}
+
+// Walks from the root to a place where the ray waited, and pushes what was left to visit after it.
+fn descend(place: u32, ray: Ray, inverse: vec3<f32>) {
+    var current = root;
+    while current != place {
+        suspend::spent++;
+        let node = structure::nodes[current];
+        let children = structure::children_along(node, inverse, ray.t_max);
+        current = select(node.right, node.left, structure::is_below_left(node, place));
+        if current == children.near && children.far != structure::EMPTY {
+            push(children.far, children.far_enter);
+        }
+    }
+}
+
+// Visits places from `start` on until the ray is done. Returns the place to wait at, EMPTY when the
+// ray is finished.
+fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
+    var place = start;
+    while place != structure::EMPTY {
+        if !suspend::can_go_on() {
+            return place;
+        }
+        suspend::spent++;
+        if (place & structure::LEAF) != 0u {
+            let index = place & ~structure::LEAF;
+            let outcome = leaf::search_leaf(ray, inverse, index);
+            if outcome == leaf::WAITING {
+                return place;
+            }
+            if outcome == leaf::FOUND && leaf::search.high < best_t {
+                best_t = leaf::search.high;
+                best_leaf = index;
+                best_status = select(hit::INSIDE, hit::HIT, best_t > 0.0);
+                if leaf::first_hit_ends() {
+                    return structure::EMPTY;
+                }
+            }
+            leaf::search.stage = leaf::ENTER;
+            place = pop();
+        } else {
+            count_node();
+            let node = structure::nodes[place];
+            let children = structure::children_along(node, inverse, ray.t_max);
+            if children.far != structure::EMPTY && children.far_enter < best_t {
+                push(children.far, children.far_enter);
+            }
+            place = children.near;
+            if place == structure::EMPTY || children.near_enter >= best_t {
+                place = pop();
+            }
+        }
+    }
+    return structure::EMPTY;
+}
+
+// Writes the hit, with its normal and colour from the list of the leaf that found it.
+fn write(pixel: u32, ray: Ray) {
+    if best_status == hit::MISS {
+        hit::write_miss(pixel);
+        return;
+    }
+    var slope = vec3(0.0);
+    blend_start();
+    let end = structure::leaves[best_leaf + 1u].first;
+    for (var entry = structure::leaves[best_leaf].first; entry < end; entry++) {
+        let ball = structure::lists[entry];
+        let support = supports[ball];
+        let offset = offset_at(view.eye - support.center, ray.direction, best_t);
+        let v = depth_below_rim(offset, support.radius);
+        slope += gradient(ball, v, offset, support.radius);
+        blend_add(ball, contribution(ball, v));
+    }
+    blend_write(pixel);
+    // Where the field is flat, as at a lone centre, the surface faces the ray.
+    let steepness = length(slope);
+    let normal = select(-ray.direction, -slope / steepness, steepness > 0.0);
+    hit::write_hit(pixel, best_t, normal, best_status);
+}
+
+@compute @workgroup_size(8, 8)
+fn trace(@builtin(global_invocation_id) id: vec3<u32>) {
+    if !in_picture(id.xy) {
+        return;
+    }
+    let pixel = pixel_at(id.xy);
+    let ray = rays[pixel];
+    let inverse = structure::inverse(ray.direction);
+    best_t = ray.t_max;
+    best_status = hit::MISS;
+
+    let place = traverse(root, ray, inverse);
+    write_work(pixel);
+    if place == structure::EMPTY {
+        write(pixel, ray);
+    } else {
+        suspend::suspend_first(waiting_at(place, pixel));
+    }
+}
+
+@compute @workgroup_size(64)
+fn resume(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= min(suspend::waiting(), arrayLength(&suspend::pool.slots)) {
+        return;
+    }
+    let state = suspend::pool.slots[id.x];
+    if state.place == structure::EMPTY {
+        return;
+    }
+    let ray = rays[state.pixel];
+    let inverse = structure::inverse(ray.direction);
+    best_t = state.best_t;
+    best_leaf = state.best_leaf;
+    best_status = state.best_status;
+    leaf::search = leaf::Search(
+        state.stage, state.next, state.low, state.low_value, state.high, state.high_value,
+        state.iterations,
+    );
+
+    descend(state.place, ray, inverse);
+    let place = traverse(state.place, ray, inverse);
+    write_work(state.pixel);
+    if place == structure::EMPTY {
+        write(state.pixel, ray);
+        suspend::finish(id.x);
+    } else {
+        suspend::suspend_again(id.x, waiting_at(place, state.pixel));
+    }
+}
+
+fn waiting_at(place: u32, pixel: u32) -> suspend::Suspended {
+    return suspend::Suspended(
+        pixel, place,
+        leaf::search.stage, leaf::search.next, leaf::search.low, leaf::search.low_value,
+        leaf::search.high, leaf::search.high_value, leaf::search.iterations,
+        best_t, best_leaf, best_status,
+    );
+}

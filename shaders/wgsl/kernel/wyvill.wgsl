@@ -1,0 +1,14 @@
+// Wyvill's polynomial of degree six in r, written in v: v^2 (5 + 4v) / 9 (Kanamori et al. 2008).
+#define_import_path metaball::kernel
+
+// v = 1 - r^2/R^2; zero for v <= 0.
+fn kernel(v: f32) -> f32 {
+    let depth = max(v, 0.0);
+    return depth * depth * (5.0 + 4.0 * depth) * (1.0 / 9.0);
+}
+
+// Derivative by v; zero for v <= 0.
+fn kernel_slope(v: f32) -> f32 {
+    let depth = max(v, 0.0);
+    return depth * (10.0 + 12.0 * depth) * (1.0 / 9.0);
+}

@@ -1,0 +1,30 @@
+// The lit surface.
+
+#import metaball::base::base_color
+#import metaball::hit::{hits, unfold, HIT, INSIDE, MISS}
+#import metaball::light::{phong, from_within, background, ALARM}
+#import metaball::picture::put_light
+#import metaball::view::{rays, in_picture, pixel_at}
+
+@compute @workgroup_size(8, 8)
+fn shade(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    if !in_picture(invocation.xy) {
+        return;
+    }
+    let pixel = pixel_at(invocation.xy);
+    let hit = hits[pixel];
+    switch hit.status & 255u {
+        case MISS: {
+            put_light(pixel, background(invocation.y));
+        }
+        case HIT: {
+            put_light(pixel, phong(base_color(pixel), unfold(hit.normal), -rays[pixel].direction));
+        }
+        case INSIDE: {
+            put_light(pixel, from_within(base_color(pixel)));
+        }
+        default: {
+            put_light(pixel, ALARM);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+// The balls alone, each as the sphere in which it reaches the threshold by itself (Kanamori et al.
+// 2008, figure 11 left). A rectangle a ball bounds it on the picture; a fragment intersects its ray.
+
+#import metaball::light::{phong, from_within, background}
+#import metaball::make_ray::direction_through
+#import metaball::srgb::{decode, encode}
+#import metaball::view::view
+
+// Twin of `CoreSphere` in metaball-core.
+struct CoreSphere {
+    // World space, scene units.
+    center: vec3<f32>,
+    // Positive.
+    radius: f32,
+    // Colour in linear light.
+    color: vec3<f32>,
+    // A length of the scene's size, the same for all: where stored depth is one half.
+    half_depth: f32,
+}
+
+@group(1) @binding(0) var<storage, read> spheres: array<CoreSphere>;
+
+struct Corner {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) sphere: u32,
+}
+
+struct Shaded {
+    @location(0) color: vec4<f32>,
+    // 1 at the eye, 0 infinitely far: floats are densest where distances are largest.
+    @builtin(frag_depth) depth: f32,
+}
+
+// Corner of a strip of two triangles.
+fn corner_of(vertex: u32) -> vec2<f32> {
+    return vec2(f32(vertex & 1u), f32(vertex >> 1u));
+}
+
+@vertex
+fn bound_sphere(@builtin(vertex_index) vertex: u32, @builtin(instance_index) sphere: u32) -> Corner {
+    let offset = spheres[sphere].center - view.eye;
+    let radius = spheres[sphere].radius;
+    let ahead = dot(offset, view.forward);
+    let half = view.half_pixel * vec2(f32(view.width), f32(view.height));
+    let across = tangents(vec2(dot(offset, view.right), ahead), radius, half.x);
+    let upwards = tangents(vec2(dot(offset, view.up), ahead), radius, half.y);
+    let corner = corner_of(vertex);
+    let position = vec2(mix(across.x, across.y, corner.x), mix(upwards.x, upwards.y, corner.y));
+    return Corner(vec4(position / half, 0.5, 1.0), sphere);
+}
+
+// The part of [-half, half] at unit distance that a circle can cover, seen from the origin along the
+// second axis; empty ranges have equal ends.
+fn tangents(center: vec2<f32>, radius: f32, half: f32) -> vec2<f32> {
+    // Vulkan lets atan2 err by 4096 units in the last place: below this angle.
+    const SLACK = 0.002;
+    let distance = length(center);
+    if distance <= radius * 1.001 {
+        return vec2(-half, half);
+    }
+    let middle = atan2(center.x, center.y);
+    let spread = atan2(radius, sqrt((distance - radius) * (distance + radius))) + SLACK;
+    let limit = atan(half);
+    let ends = clamp(vec2(middle - spread, middle + spread), vec2(-limit), vec2(limit));
+    return tan(ends);
+}
+
+@fragment
+fn shade_sphere(corner: Corner) -> Shaded {
+    let sphere = spheres[corner.sphere];
+    let direction = direction_through(vec2<u32>(corner.position.xy));
+    let offset = sphere.center - view.eye;
+    let along = dot(offset, direction);
+    // The ray's nearest point to the centre first: no difference of large squares.
+    let across = offset - along * direction;
+    let squared = sphere.radius * sphere.radius - dot(across, across);
+    if squared < 0.0 {
+        discard;
+    }
+    let half_chord = sqrt(squared);
+    let t = along - half_chord;
+    if along + half_chord < 0.0 {
+        discard;
+    }
+    if t < 0.0 {
+        return Shaded(vec4(encode(from_within(sphere.color)), 1.0), 1.0);
+    }
+    let normal = normalize(t * direction - offset);
+    let light = phong(sphere.color, normal, -direction);
+    return Shaded(vec4(encode(light), 1.0), sphere.half_depth / (sphere.half_depth + t));
+}
+
+@vertex
+fn cover_picture(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4<f32> {
+    return vec4(2.0 * corner_of(vertex) - 1.0, 0.0, 1.0);
+}
+
+@fragment
+fn shade_background(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return vec4(encode(background(u32(position.y))), 1.0);
+}

@@ -1,0 +1,41 @@
+// What a pixel cost, counted in private memory and added to the pixel's record once an invocation.
+#define_import_path metaball::work
+
+#import metaball::work_record::{Work, work_of_pixel}
+
+var<private> work: Work;
+
+fn count_node() {
+    work.nodes += 1u;
+}
+
+fn count_leaf_test() {
+    work.leaf_tests += 1u;
+}
+
+fn count_balls(n: u32) {
+    work.balls += n;
+}
+
+fn count_evaluations(n: u32) {
+    work.evaluations += n;
+}
+
+fn count_iterations(n: u32) {
+    work.iterations += n;
+}
+
+fn count_layers(n: u32) {
+    work.layers += n;
+}
+
+// Adds what was counted to what earlier passes of the frame wrote.
+fn write_work(pixel: u32) {
+    work_of_pixel[pixel].nodes += work.nodes;
+    work_of_pixel[pixel].leaf_tests += work.leaf_tests;
+    work_of_pixel[pixel].balls += work.balls;
+    work_of_pixel[pixel].evaluations += work.evaluations;
+    work_of_pixel[pixel].iterations += work.iterations;
+    work_of_pixel[pixel].layers += work.layers;
+    work = Work();
+}

@@ -1,0 +1,16 @@
+// Counting compiled out.
+#define_import_path metaball::work
+
+fn count_node() {}
+
+fn count_leaf_test() {}
+
+fn count_balls(n: u32) {}
+
+fn count_evaluations(n: u32) {}
+
+fn count_iterations(n: u32) {}
+
+fn count_layers(n: u32) {}
+
+fn write_work(pixel: u32) {}

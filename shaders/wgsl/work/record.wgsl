@@ -1,0 +1,20 @@
+// Where work is recorded, one record a pixel. Exists only while counting.
+#define_import_path metaball::work_record
+
+// Twin of `Work` in metaball-core; zeros when the frame begins.
+struct Work {
+    // Nodes of a structure visited.
+    nodes: u32,
+    // Intersection tests between the ray and a leaf, layer or interval.
+    leaf_tests: u32,
+    // Balls looked at.
+    balls: u32,
+    // Evaluations of one ball's kernel.
+    evaluations: u32,
+    // Steps of a root finder.
+    iterations: u32,
+    // Peeled layers or list entries gone through.
+    layers: u32,
+}
+
+@group(0) @binding(5) var<storage, read_write> work_of_pixel: array<Work>;

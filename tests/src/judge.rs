@@ -1,0 +1,202 @@
+//! Holds a picture against the truth, pixel by pixel, and says what is wrong with it.
+
+use harness::score::{Judgement, WRONG_FRONT};
+use metaball_core::reference::{Oracle, Truth};
+use metaball_core::{Hit, Ray, Scene, Verdict};
+
+use crate::promise::Promise;
+
+/// What a method is held to.
+#[derive(Debug, Clone, Copy)]
+pub struct Terms {
+    /// Where it must be right.
+    pub promise: Promise,
+    /// |F − T|/T at which its root finder may stop.
+    pub residual: f64,
+}
+
+/// What was found; a picture is right when there are no violations.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct Findings {
+    /// What must not be, in words, with the pixel: at most one a pixel.
+    pub violations: Vec<String>,
+    /// Wrong verdicts at rays for which the method promises nothing.
+    pub excused: usize,
+    /// Rays too close to call for the oracle.
+    pub ambiguous: usize,
+    /// Rays that both hit, held to distance and normal.
+    pub measured: usize,
+}
+
+/// Rays of a view with the truth about each.
+pub struct Exam<'a> {
+    scene: &'a Scene,
+    oracle: &'a Oracle<'a>,
+    rays: &'a [Ray],
+    truths: Vec<Truth>,
+}
+
+impl<'a> Exam<'a> {
+    /// Asks the oracle.
+    pub fn new(scene: &'a Scene, oracle: &'a Oracle<'a>, rays: &'a [Ray]) -> Self {
+        Self { scene, oracle, rays, truths: oracle.first_hits(rays) }
+    }
+
+    /// The truth about each ray.
+    pub fn truths(&self) -> &[Truth] {
+        &self.truths
+    }
+
+    /// Judges a picture.
+    pub fn judge(&self, hits: &[Hit], terms: &Terms) -> Findings {
+        let mut findings = Findings::default();
+        if hits.len() != self.rays.len() {
+            let (needed, found) = (self.rays.len(), hits.len());
+            findings.violations.push(format!("needed {needed} hits, found {found}"));
+            return findings;
+        }
+        for (pixel, hit) in hits.iter().enumerate() {
+            if let Err(violation) = self.judge_pixel(pixel, hit, terms, &mut findings) {
+                findings.violations.push(format!("pixel {pixel}: {violation}"));
+            }
+        }
+        findings
+    }
+
+    /// Holds two pictures against each other, without asking the truth what is drawn: wherever both
+    /// methods promise an answer, they must give the same, on the same front.
+    pub fn compare(
+        &self,
+        (ours, our_promise): (&[Hit], Promise),
+        (theirs, their_promise): (&[Hit], Promise),
+    ) -> Findings {
+        let mut findings = Findings::default();
+        if ours.len() != theirs.len() || ours.len() != self.rays.len() {
+            let (needed, found) = (self.rays.len(), (ours.len(), theirs.len()));
+            findings.violations.push(format!("needed {needed} hits each, found {found:?}"));
+            return findings;
+        }
+        for (pixel, (our, their)) in ours.iter().zip(theirs).enumerate() {
+            let (ray, truth) = (&self.rays[pixel], &self.truths[pixel]);
+            let is_promised = |promise: Promise| {
+                truth.verdict == Verdict::Miss || promise.holds(self.scene, ray, truth)
+            };
+            if truth.is_ambiguous() {
+                findings.ambiguous += 1;
+            } else if !is_promised(our_promise) || !is_promised(their_promise) {
+                findings.excused += 1;
+            } else {
+                findings.measured += usize::from(our.is_hit());
+                // A miss has t = ∞, and ∞ − ∞ is no distance at all.
+                let distance = f64::from(our.t) - f64::from(their.t);
+                let is_apart = our.is_hit()
+                    && distance.abs() > WRONG_FRONT * f64::from(truth.smallest_radius);
+                if our.is_hit() != their.is_hit() || is_apart {
+                    findings.violations.push(format!("pixel {pixel}: {our:?} against {their:?}"));
+                }
+            }
+        }
+        findings
+    }
+
+    fn judge_pixel(
+        &self,
+        pixel: usize,
+        hit: &Hit,
+        terms: &Terms,
+        findings: &mut Findings,
+    ) -> Result<(), String> {
+        let (ray, truth) = (&self.rays[pixel], &self.truths[pixel]);
+        if hit.verdict == Verdict::Undecided || hit.fallback {
+            return Err(format!("needed an answer of the method's own, found {hit:?}"));
+        }
+        if truth.is_ambiguous() {
+            findings.ambiguous += 1;
+            return Ok(());
+        }
+        if Judgement::new(truth, hit).is_wrong() {
+            // A method that promises nothing for a ray may be late or miss; it may never see a
+            // surface before the first, or where there is none.
+            let is_late = truth.verdict != Verdict::Miss && f64::from(hit.t) > truth.t;
+            if is_late && !terms.promise.holds(self.scene, ray, truth) {
+                findings.excused += 1;
+                return Ok(());
+            }
+            return Err(format!("needed {truth:?}, found {hit:?}"));
+        }
+        if !hit.is_hit() {
+            return Ok(());
+        }
+        findings.measured += 1;
+        self.measure(ray, truth, hit, terms)
+    }
+
+    /// Holds a hit to the field at its own point, which is well conditioned where distance is not.
+    fn measure(&self, ray: &Ray, truth: &Truth, hit: &Hit, terms: &Terms) -> Result<(), String> {
+        let point = ray.origin.as_dvec3() + f64::from(hit.t) * ray.direction.as_dvec3();
+        let threshold = f64::from(self.scene.threshold());
+        let rounding = Rounding::at(self.scene, ray, f64::from(hit.t));
+
+        let residual = self.oracle.field(point) - threshold;
+        let allowed = terms.residual * threshold + rounding.of_field;
+        // A start inside has any field from T up.
+        if truth.verdict != Verdict::Inside && residual.abs() > allowed {
+            return Err(format!("|F - T| = {:.3e}, needed at most {allowed:.3e}", residual.abs()));
+        }
+
+        let exact = self.oracle.normal(point);
+        if rounding.of_normal < 1.0 {
+            let normal = hit.normal.as_dvec3();
+            let angle = normal.cross(exact).length().atan2(normal.dot(exact));
+            let allowed = rounding.of_normal.asin() + 1e-6;
+            if angle.is_nan() || angle > allowed {
+                return Err(format!("normal off by {angle:.3e}, needed at most {allowed:.3e}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What f32 can do at a point of a ray.
+///
+/// A ball's offset is (eye − p) + t·d, wrong by at most u(|eye − p| + t + |offset|) with u = 2⁻²³
+/// (WGSL may round either way) for the difference, the product and the sum; call it e. Then
+/// v = 1 − |offset|²/R² is wrong by 2e/R + 6u inside the support: three squares and two sums, a
+/// square, a division and the last difference. The field follows with q·k′; the sum of n terms adds
+/// n·u·F. The gradient's term −2q·k′·offset/R² is wrong by as much as its own size times
+/// (k″/k′)·δv + e/R + 5u, and k″δv is at most 56δv for the steepest kernel (α = 8).
+struct Rounding {
+    of_field: f64,
+    /// Sine of the angle between the gradient and its f32 value; 1 or more: any normal is right.
+    of_normal: f64,
+}
+
+impl Rounding {
+    fn at(scene: &Scene, ray: &Ray, t: f64) -> Self {
+        let unit = f64::from(f32::EPSILON);
+        let kernel = scene.kernel();
+        let (mut of_field, mut field, mut count) = (0.0, 0.0, 0.0);
+        let (mut gradient, mut of_gradient) = (glam::DVec3::ZERO, 0.0);
+        for ball in scene.balls() {
+            let from_center = ray.origin.as_dvec3() - ball.center.as_dvec3();
+            let offset = from_center + t * ray.direction.as_dvec3();
+            let (radius, strength) = (f64::from(ball.radius), f64::from(ball.strength));
+            let squared_ratio = offset.length_squared() / (radius * radius);
+            let of_offset = unit * (from_center.length() + t + offset.length());
+            let of_v = 2.0 * of_offset / radius + 6.0 * unit;
+            // A ball just outside may seem just inside.
+            if squared_ratio >= 1.0 + of_v {
+                continue;
+            }
+            let slope = kernel.slope(squared_ratio).abs();
+            count += 1.0;
+            field += strength * kernel.value(squared_ratio);
+            of_field += strength * (slope * of_v + 28.0 * of_v * of_v);
+            gradient += 2.0 * strength * slope / (radius * radius) * offset;
+            of_gradient += 2.0 * strength / radius
+                * (56.0 * of_v + slope * (of_offset / radius + (5.0 + count) * unit));
+        }
+        let of_normal = if gradient.length() > 0.0 { of_gradient / gradient.length() } else { 1.0 };
+        Self { of_field: of_field + count * unit * field, of_normal }
+    }
+}

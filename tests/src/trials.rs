@@ -1,0 +1,81 @@
+//! The trials: scenes multiplied by methods.
+
+mod agreement;
+mod canaries;
+mod capacity;
+mod frames;
+
+use bench_scenes::{BenchScene, Overrides};
+use libtest_mimic::{Failed, Trial};
+use metaball_core::gpu::{FrameReport, Gpu, IsoRenderer, Targets, render};
+use metaball_core::{Hit, Ray, Scene, View};
+
+use crate::machine;
+
+/// Columns and rows of test pictures: software adapters are slow.
+const SIZE: (u32, u32) = (64, 48);
+
+/// All trials. Without an adapter they show as ignored.
+pub fn all() -> Vec<Trial> {
+    let mut trials = agreement::trials();
+    trials.extend(canaries::trials());
+    trials.extend(capacity::trials());
+    trials.extend(frames::trials());
+    trials
+}
+
+/// A trial that needs the adapter.
+fn on_gpu(
+    name: String,
+    test: impl FnOnce(&'static Gpu) -> Result<(), Failed> + Send + 'static,
+) -> Trial {
+    let gpu = machine::gpu();
+    Trial::test(name, move || match gpu {
+        Some(gpu) => test(gpu),
+        None => Err("no adapter".into()),
+    })
+    .with_ignored_flag(gpu.is_none())
+}
+
+/// A renderer of a method that does not count its work.
+fn renderer(method: &str) -> Result<Box<dyn IsoRenderer>, Failed> {
+    let found = harness::methods::find(method);
+    let method = found.ok_or_else(|| format!("no method is called {method}"))?;
+    Ok((method.make)(false))
+}
+
+/// The scenes on which every method is tried: all small ones, and the molecule.
+fn scenes() -> impl Iterator<Item = &'static str> {
+    let known = bench_scenes::known().iter();
+    known.filter(|scene| scene.small || scene.name == "molecule").map(|scene| scene.name)
+}
+
+fn load(name: &str) -> Result<BenchScene, Failed> {
+    Ok(bench_scenes::load(name, &Overrides::default())?)
+}
+
+/// A scene's own view, small.
+fn view_of(scene: &BenchScene) -> Result<View, Failed> {
+    Ok(View::new(scene.camera, SIZE.0, SIZE.1)?)
+}
+
+/// A picture as numbers: what was drawn, along which rays.
+struct Picture {
+    rays: Vec<Ray>,
+    hits: Vec<Hit>,
+    report: FrameReport,
+}
+
+/// Builds a scene and draws one frame of it.
+fn draw(
+    gpu: &Gpu,
+    renderer: &mut dyn IsoRenderer,
+    scene: &Scene,
+    view: &View,
+) -> Result<Picture, Failed> {
+    renderer.build(gpu, scene)?;
+    let has_colors = scene.colors().is_some();
+    let targets = Targets::new(gpu, view.width(), view.height(), has_colors, false)?;
+    let report = render(gpu, renderer, &targets, view)?;
+    Ok(Picture { rays: targets.read_rays(gpu, view)?, hits: targets.read_hits(gpu)?, report })
+}

@@ -1,0 +1,73 @@
+//! `cargo xtask test`: everything that must hold before a change is taken.
+
+use crate::adapter::{self, Adapter};
+use crate::run::{cargo, say, succeeds, to_the_end};
+
+/// What users may take from the registry. Before the first release they pack only together: each
+/// is found by the next as a freshly packed archive.
+const PUBLISHED: [&str; 3] = ["metaball-shaders", "metaball-core", "fbvh"];
+
+/// One thing to check: what it is called, cargo's arguments, and an environment variable.
+struct Step {
+    title: &'static str,
+    arguments: Vec<&'static str>,
+    environment: Option<(&'static str, &'static str)>,
+}
+
+/// Runs all steps, the quick ones first, and stops at the first that fails. Arguments go on to
+/// `cargo test`, which then is the only step.
+pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
+    let adapter = adapter::ensure()?;
+    // Tests that need an adapter fail without one when this is set, and show as ignored otherwise.
+    let environment = (adapter == Adapter::Found).then_some(("REQUIRE_GPU", "1"));
+    if !arguments.is_empty() {
+        let mut command = cargo();
+        command.arg("test").args(arguments).envs(environment);
+        return to_the_end(&mut command);
+    }
+
+    for step in steps(environment) {
+        say(&format!("── {}", step.title));
+        let mut command = cargo();
+        command.args(&step.arguments).envs(step.environment);
+        to_the_end(&mut command)?;
+    }
+    if succeeds("cargo", &["deny", "--version"]) {
+        say("── licences, bans and sources");
+        to_the_end(cargo().args(["deny", "check", "licenses", "bans", "sources"]))?;
+    } else {
+        say("── licences, bans and sources: not checked (cargo install cargo-deny)");
+    }
+
+    match adapter {
+        Adapter::Found => Ok(()),
+        Adapter::Missing => Err("no adapter: the tests shown as ignored did not run, \
+            so they have not passed; install one as said above"
+            .to_owned()),
+    }
+}
+
+fn steps(gpu: Option<(&'static str, &'static str)>) -> Vec<Step> {
+    let mut package = vec!["package", "--quiet", "--allow-dirty"];
+    package.extend(PUBLISHED.into_iter().flat_map(|name| ["--package", name]));
+    let step = |title, arguments: &[&'static str], environment| Step {
+        title,
+        arguments: arguments.to_vec(),
+        environment,
+    };
+    vec![
+        step("formatting", &["fmt", "--all", "--check"], None),
+        step(
+            "lints",
+            &["clippy", "--workspace", "--all-targets", "--all-features", "--", "-Dwarnings"],
+            None,
+        ),
+        step("tests", &["test", "--workspace", "--all-features", "--no-fail-fast"], gpu),
+        step(
+            "documentation",
+            &["doc", "--workspace", "--all-features", "--no-deps"],
+            Some(("RUSTDOCFLAGS", "-Dwarnings")),
+        ),
+        step("packages", &package, None),
+    ]
+}
