@@ -89,8 +89,8 @@ impl<'a> Exam<'a> {
                 findings.measured += usize::from(our.is_hit());
                 // A miss has t = ∞, and ∞ − ∞ is no distance at all.
                 let distance = f64::from(our.t) - f64::from(their.t);
-                let is_apart = our.is_hit()
-                    && distance.abs() > WRONG_FRONT * f64::from(truth.smallest_radius);
+                let is_apart =
+                    our.is_hit() && distance.abs() > WRONG_FRONT * f64::from(truth.smallest_radius);
                 if our.is_hit() != their.is_hit() || is_apart {
                     findings.violations.push(format!("pixel {pixel}: {our:?} against {their:?}"));
                 }

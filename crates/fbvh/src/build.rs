@@ -155,9 +155,7 @@ impl Builder {
             return None;
         }
         match self.options.structure {
-            Structure::ModifiedBvh => {
-                Some((own, Part { splits: 0..0, bounds, depth: 0 }))
-            }
+            Structure::ModifiedBvh => Some((own, Part { splits: 0..0, bounds, depth: 0 })),
             Structure::Fitted(fitting) => {
                 let (kept, part) = self.fit(&fitting, own, &mut Vec::new(), 0, bounds, 0)?;
                 Some((&mut own[..kept], part))
@@ -287,11 +285,7 @@ impl Branch {
 
     /// Takes the vacant nodes out, turns the lengths of lists into their starts, and checks that the
     /// indices were wide enough.
-    fn finish(
-        mut self,
-        root: Option<(u32, Aabb)>,
-        options: &Options,
-    ) -> Result<Tree, BuildError> {
+    fn finish(mut self, root: Option<(u32, Aabb)>, options: &Options) -> Result<Tree, BuildError> {
         check("leaves", self.leaves.len(), (LEAF - 1) as usize)?;
         check("list entries", self.lists.len(), u32::MAX as usize)?;
         let (mut root, bounds) = root.unwrap_or((EMPTY, Aabb::EMPTY));

@@ -37,9 +37,8 @@ pub struct Spread {
 impl Spread {
     fn of(counts: impl ExactSizeIterator<Item = usize>) -> Self {
         let leaves = counts.len().max(1);
-        let (sum, max) = counts.fold((0, 0), |(sum, max): (usize, usize), count| {
-            (sum + count, max.max(count))
-        });
+        let (sum, max) =
+            counts.fold((0, 0), |(sum, max): (usize, usize), count| (sum + count, max.max(count)));
         Self { mean: sum as f64 / leaves as f64, max }
     }
 }

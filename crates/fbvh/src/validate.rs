@@ -82,6 +82,14 @@ pub enum Flaw {
         /// Leaves in which it is own.
         found: usize,
     },
+    /// In the modified BVH: an own ball's support reaches beyond the leaf's box.
+    #[error("leaf {leaf}: own ball {ball} reaches beyond the box")]
+    OwnOutside {
+        /// The leaf.
+        leaf: usize,
+        /// The ball.
+        ball: u32,
+    },
     /// A list lacks a ball that makes a difference to the surface.
     #[error("leaf {leaf}: ball {ball} is missing from the list")]
     Incomplete {
@@ -197,7 +205,16 @@ impl Tree {
                     _ => return Err(Flaw::Listing { leaf, ball }),
                 }
             }
-            own.iter().for_each(|&ball| owners[ball as usize] += 1);
+            let bounds = self.leaves[leaf].bounds();
+            for &ball in own {
+                owners[ball as usize] += 1;
+                let Support { center, radius } = field.support(ball as usize);
+                if self.kind == Kind::ModifiedBvh
+                    && bounds.union(&Aabb::around_sphere(center, radius)) != bounds
+                {
+                    return Err(Flaw::OwnOutside { leaf, ball });
+                }
+            }
         }
         // Where a ball does not reach its own leaf's fitted box, it is nobody's own.
         let legal = match self.kind {
@@ -250,8 +267,8 @@ impl Tree {
         let listed: Vec<u32> = own.iter().chain(split).copied().collect();
         missing.iter().any(|&ball| {
             let Support { center, radius } = field.support(ball as usize);
-            let part = Aabb::around_sphere(center, radius)
-                .intersection(&self.leaves[leaf].bounds());
+            let part =
+                Aabb::around_sphere(center, radius).intersection(&self.leaves[leaf].bounds());
             let (low, side) = (part.min.as_dvec3(), part.extent().as_dvec3());
             (0..(STEPS + 1).pow(3)).any(|at| {
                 let step = |divisor: usize| (at / divisor % (STEPS + 1)) as f64 / STEPS as f64;
@@ -298,16 +315,13 @@ impl Tree {
 
 /// The last point of the solid before the field first falls below T on the way from a ball's centre
 /// to the rim of its support; `None` where it starts below or stays above.
-fn surface_from(
-    field: &impl Field,
-    near: &[u32],
-    ball: usize,
-    direction: DVec3,
-) -> Option<DVec3> {
+fn surface_from(field: &impl Field, near: &[u32], ball: usize, direction: DVec3) -> Option<DVec3> {
     const STEPS: usize = 32;
     let Support { center, radius } = field.support(ball);
     let at = |part: f64| center.as_dvec3() + part * f64::from(radius) * direction;
-    let solid = |part: f64| value(field, near, at(part)) >= f64::from(field.threshold());
+    // A hair above T: a field that only just touches T at a point has no surface to lose.
+    let threshold = f64::from(field.threshold()) * (1.0 + 1e-9);
+    let solid = |part: f64| value(field, near, at(part)) >= threshold;
     if !solid(0.0) {
         return None;
     }
@@ -329,7 +343,8 @@ fn surface_from(
 fn value(field: &impl Field, balls: &[u32], point: DVec3) -> f64 {
     balls.iter().fold(0.0, |sum, &ball| {
         let Support { center, radius } = field.support(ball as usize);
-        let squared_ratio = (center.as_dvec3() - point).length_squared() / f64::from(radius).powi(2);
+        let squared_ratio =
+            (center.as_dvec3() - point).length_squared() / f64::from(radius).powi(2);
         sum + f64::from(field.strength(ball as usize)) * field.kernel().value(squared_ratio)
     })
 }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use harness::methods::METHODS;
 use libtest_mimic::{Failed, Trial};
+use metaball_core::Verdict;
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
-use metaball_core::Verdict;
 
 use super::agreement::{pass, terms_of};
 use super::{draw, load, on_gpu, renderer, view_of};

@@ -17,8 +17,7 @@ impl Builder {
         pool: &mut Vec<Ball>,
         part: &Part,
     ) -> Division {
-        let Some(Plane { axis, at, .. }) = self.plane(own, &pool[part.splits.clone()], part)
-        else {
+        let Some(Plane { axis, at, .. }) = self.plane(own, &pool[part.splits.clone()], part) else {
             return Division::Leaf(part.splits.clone());
         };
         let (left_bounds, right_bounds) = cut(&part.bounds, axis, at);
@@ -100,12 +99,7 @@ impl Builder {
     }
 
     /// The plane to cut the node at; `None` where it had better be a leaf.
-    fn plane(
-        &self,
-        own: &mut [Ball],
-        splits: &[Ball],
-        part: &Part,
-    ) -> Option<Plane> {
+    fn plane(&self, own: &mut [Ball], splits: &[Ball], part: &Part) -> Option<Plane> {
         let options = &self.options;
         let count = own.len() + splits.len();
         let cost = options.cost.of(count);
@@ -131,12 +125,7 @@ impl Builder {
             let at = part.bounds.center()[axis];
             weigh(own.iter().chain(splits), &part.bounds, (axis, at), options.cost)
         } else {
-            cut_space(
-                own.iter().chain(splits),
-                &part.bounds,
-                options.bins as usize,
-                options.cost,
-            )
+            cut_space(own.iter().chain(splits), &part.bounds, options.bins as usize, options.cost)
         };
         plane.filter(|plane| options.traversal_cost + plane.cost < cost)
     }

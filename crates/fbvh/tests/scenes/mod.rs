@@ -5,7 +5,7 @@ use metaball_core::{Kernel, Metaball, Scene};
 use proptest::prelude::*;
 
 /// Any arrangement, kernel and threshold, of up to so many balls.
-pub fn any_scene(balls: usize) -> impl Strategy<Value = Scene> {
+pub(crate) fn any_scene(balls: usize) -> impl Strategy<Value = Scene> {
     let kernels = prop::sample::select(Kernel::all().collect::<Vec<_>>());
     let thresholds = prop::sample::select(vec![0.05f32, 0.2, 0.5, 1.0, 3.0]);
     (any_balls(balls), kernels, thresholds).prop_map(|(balls, kernel, threshold)| {
@@ -35,8 +35,11 @@ fn scattered(
     radii: impl Strategy<Value = f32>,
     strengths: impl Strategy<Value = f32>,
 ) -> impl Strategy<Value = Vec<Metaball>> {
-    let ball = (point(), radii, strengths)
-        .prop_map(|(center, radius, strength)| Metaball { center, radius, strength });
+    let ball = (point(), radii, strengths).prop_map(|(center, radius, strength)| Metaball {
+        center,
+        radius,
+        strength,
+    });
     prop::collection::vec(ball, 0..count)
 }
 
@@ -49,10 +52,9 @@ fn on_a_grid(count: usize) -> impl Strategy<Value = Vec<Metaball>> {
 }
 
 fn coincident(count: usize) -> impl Strategy<Value = Vec<Metaball>> {
-    (point(), prop::collection::vec(prop::sample::select(vec![0.5f32, 1.0]), 0..count))
-        .prop_map(|(center, radii)| {
-            radii.into_iter().map(|radius| Metaball::new(center, radius)).collect()
-        })
+    (point(), prop::collection::vec(prop::sample::select(vec![0.5f32, 1.0]), 0..count)).prop_map(
+        |(center, radii)| radii.into_iter().map(|radius| Metaball::new(center, radius)).collect(),
+    )
 }
 
 /// Each ball inside the one before, close to its rim.

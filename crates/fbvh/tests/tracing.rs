@@ -1,0 +1,266 @@
+//! The CPU tracer against closed forms and against the oracle.
+
+mod scenes;
+
+use approx::assert_relative_eq;
+use fbvh::{Boxes, Fitting, Kind, Options, Reading, Structure, TraceOptions, Tracer, Tree, Work};
+use glam::{DVec3, Vec3};
+use metaball_core::reference::{Oracle, Truth};
+use metaball_core::{Camera, Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict};
+use proptest::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+static C: [AtomicUsize; 6] = [const { AtomicUsize::new(0) }; 6];
+
+const CLIPPED: TraceOptions = TraceOptions::DEFAULT;
+const LITERAL: TraceOptions = TraceOptions { reading: Reading::Literal, ..CLIPPED };
+
+/// The published structures, and the fitted one with nothing of section 5.3 and with all.
+fn structures() -> [Options; 4] {
+    let fitted = |boxes, discard_up_to| Options {
+        structure: Structure::Fitted(Fitting { boxes, discard_up_to }),
+        // Small enough to make trees of a handful of balls.
+        traversal_cost: 2.0,
+        ..Options::fitted()
+    };
+    [
+        Options::modified_bvh(),
+        Options { traversal_cost: 2.0, ..Options::fitted() },
+        fitted(Boxes::Cut, 0),
+        fitted(Boxes::PerBall, 1000),
+    ]
+}
+
+fn trace(scene: &Scene, options: &Options, reading: TraceOptions, ray: &Ray) -> Hit {
+    let tree = Tree::build(scene, options).expect("legal options");
+    Tracer::new(&tree, scene, reading).first_hit(ray)
+}
+
+#[test]
+fn one_ball_is_a_sphere() {
+    for kernel in Kernel::all() {
+        let ball = Metaball { center: Vec3::new(1.0, -2.0, 0.5), radius: 1.5, strength: 1.25 };
+        let scene = Scene::new([ball], kernel, 0.4).expect("legal");
+        let core = kernel.core_radius(&ball, 0.4).expect("0.4 is below 1.25");
+        for options in structures() {
+            for reading in [CLIPPED, LITERAL] {
+                let ray = Ray::new(ball.center - 5.0 * Vec3::Z, Vec3::Z);
+                let hit = trace(&scene, &options, reading, &ray);
+                assert_eq!(hit.verdict, Verdict::Hit);
+                // 1e-5 of T over the field's slope, which for α = 8, the flattest at the core
+                // radius, is 0.9 T a unit; and as much again for f32.
+                assert_relative_eq!(f64::from(hit.t), 5.0 - core, epsilon = 5e-5);
+                assert_relative_eq!(hit.normal, -Vec3::Z, epsilon = 1e-4);
+
+                let inside = Ray::new(ball.center, Vec3::Z);
+                let hit = trace(&scene, &options, reading, &inside);
+                assert_eq!((hit.verdict, hit.t), (Verdict::Inside, 0.0));
+                let away = Ray::new(ray.origin, -Vec3::Z);
+                assert_eq!(trace(&scene, &options, reading, &away), Hit::MISS);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_opaque_thing_ends_the_ray() {
+    let scene = Scene::new([Metaball::new(Vec3::ZERO, 1.0)], Kernel::QUARTIC, 0.25).expect("legal");
+    // The quartic is 0.25 at ρ² = 0.5: t = 3 − 0.7071.
+    for options in structures() {
+        for reading in [CLIPPED, LITERAL] {
+            let verdict = |t_max| {
+                let ray = Ray { t_max, ..Ray::new(-3.0 * Vec3::X, Vec3::X) };
+                trace(&scene, &options, reading, &ray).verdict
+            };
+            assert_eq!(verdict(2.29), Verdict::Miss);
+            // Ends inside the solid, before the centre's projection.
+            assert_eq!(verdict(2.30), Verdict::Hit);
+            assert_eq!(verdict(NO_LIMIT), Verdict::Hit);
+        }
+    }
+}
+
+/// Rays along the axes whose directions have zeros, in the planes of boxes that were split there.
+#[test]
+fn rays_along_faces_hit() {
+    let grid = (0..125).map(|at| {
+        Metaball::new(Vec3::new((at % 5) as f32, (at / 5 % 5) as f32, (at / 25) as f32), 1.0)
+    });
+    let scene = Scene::new(grid, Kernel::QUARTIC, 0.5).expect("legal");
+    for options in structures() {
+        for row in 0..25 {
+            let start = Vec3::new((row % 5) as f32, (row / 5) as f32, -3.0);
+            for direction in [Vec3::Z, Vec3::new(-0.0, -0.0, 1.0)] {
+                let hit = trace(&scene, &options, CLIPPED, &Ray::new(start, direction));
+                assert_eq!(hit.verdict, Verdict::Hit, "{start} {:?}", options.kind());
+            }
+        }
+    }
+}
+
+#[test]
+fn batches_are_single_rays_and_counting_changes_nothing() {
+    let balls = (0..300).map(|at| {
+        let angle = at as f32 * 0.7;
+        Metaball::new(Vec3::new(angle.cos(), 0.01 * at as f32, angle.sin()), 0.3)
+    });
+    let scene = Scene::new(balls, Kernel::Wyvill, 0.2).expect("legal");
+    let rays = rays_at(&scene, 40);
+    for options in structures() {
+        let tree = Tree::build(&scene, &options).expect("legal options");
+        let tracer = Tracer::new(&tree, &scene, CLIPPED);
+        let mut work = Work::default();
+        let one_by_one: Vec<Hit> =
+            rays.iter().map(|ray| tracer.first_hit_counting(ray, &mut work)).collect();
+        assert_eq!(tracer.first_hits(&rays), one_by_one);
+        assert!(one_by_one.iter().any(Hit::is_hit) && work.nodes > work.leaf_tests);
+        assert!(work.leaf_tests > 0 && work.balls >= work.leaf_tests && work.iterations > 0);
+    }
+}
+
+/// Rays of a camera that frames the scene, so many each way.
+fn rays_at(scene: &Scene, pixels: u32) -> Vec<Ray> {
+    let camera = Camera::framing(&scene.bounds(), Vec3::new(0.5, 0.3, 1.0));
+    (0..pixels * pixels)
+        .map(|pixel| {
+            let direction = camera.exact_direction(pixel % pixels, pixel / pixels, pixels, pixels);
+            Ray::new(camera.eye(), direction.as_vec3())
+        })
+        .collect()
+}
+
+/// Whether the paper's assumption holds for this ray: a centre projects into the first stretch
+/// inside, well away from its ends, of a ball whose support the projection is in. (A ball that the
+/// ray does not meet is in no list that the ray comes across.) The modified BVH needs more: its
+/// lists are complete only in the supports of own balls, so that ball's must reach back to the hit.
+fn assumption_holds(scene: &Scene, ray: &Ray, truth: &Truth, kind: Kind) -> bool {
+    let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+    scene.balls().any(|ball| {
+        let center = ball.center.as_dvec3();
+        // At the end of the ray, if the projection is beyond.
+        let t = ((center - origin).dot(direction)).min(f64::from(ray.t_max));
+        let slack = 1e-3 * (truth.leaves - truth.t);
+        let holds = |t: f64| {
+            let radius = f64::from(ball.radius) * (1.0 - 1e-3);
+            (origin + t * direction).distance_squared(center) < radius * radius
+        };
+        t > truth.t + slack
+            && t < truth.leaves - slack
+            && holds(t)
+            && (kind == Kind::Fitted || holds(truth.t))
+    })
+}
+
+/// How far from the first hit a tracer may find it.
+///
+/// The search ends where |F − T| ≤ 1e-5 T as computed; the computation is off by at most
+/// (n + 8) w Σ q, plus, per ball, a position off by 4 w (distance + R), which moves v by twice that
+/// over R and the kernel by its slope, at most 8 (α = 8), times as much. The point is where F is
+/// within that of T: between the true crossings of T(1 ± ε), which the oracle is asked for.
+fn tolerated_share(scene: &Scene, ray: &Ray, truth: &Truth) -> f64 {
+    const ROUNDOFF: f64 = 1.0 / (1 << 24) as f64;
+    let point = ray.origin.as_dvec3() + truth.t * ray.direction.as_dvec3();
+    let near: Vec<Metaball> = scene
+        .balls()
+        .filter(|ball| ball.center.as_dvec3().distance(point) < 1.5 * f64::from(ball.radius))
+        .collect();
+    let strengths: f64 = near.iter().map(|ball| f64::from(ball.strength)).sum();
+    let smallest = near.iter().map(|ball| f64::from(ball.radius)).fold(f64::INFINITY, f64::min);
+    let position = 4.0 * ROUNDOFF * (truth.t / smallest + 1.0);
+    let computed = ((near.len() + 8) as f64 * ROUNDOFF + 16.0 * position) * strengths;
+    f64::from(CLIPPED.tolerance) + 2.0 * computed / f64::from(scene.threshold())
+}
+
+/// What is wrong with a hit, unless arithmetic or the paper's assumption excuses it.
+fn complaint(
+    scene: &Scene,
+    oracle: &Oracle<'_>,
+    ray: &Ray,
+    hit: &Hit,
+    (kind, reading): (Kind, Reading),
+) -> Option<String> {
+    let truth = oracle.first_hit(ray);
+    C[0].fetch_add(1, Relaxed);
+    let share = tolerated_share(scene, ray, &truth);
+    if truth.margin <= share.max(Truth::AMBIGUOUS) {
+        return None;
+    }
+    C[1].fetch_add(1, Relaxed);
+    if truth_is_hit(&truth) {
+        C[2].fetch_add(1, Relaxed);
+    }
+    if truth.verdict == Verdict::Hit {
+        C[3].fetch_add(1, Relaxed);
+        if !hit.is_hit() {
+            C[5].fetch_add(1, Relaxed);
+        }
+    }
+    let at = |t: f64| oracle.field(ray.origin.as_dvec3() + t * ray.direction.as_dvec3());
+    let threshold = f64::from(scene.threshold());
+    let field = at(f64::from(hit.t));
+
+    // Whatever the reading: nothing is hit that is not solid, nor where nothing is.
+    if hit.is_hit() && (!truth_is_hit(&truth) || field < threshold * (1.0 - share)) {
+        return Some(format!("a hit in thin air: field {field} at {}, {truth:?}", hit.t));
+    }
+    if (hit.verdict == Verdict::Inside) != (truth.verdict == Verdict::Inside) {
+        return Some(format!("{:?} where {truth:?}", hit.verdict));
+    }
+    if !truth_is_hit(&truth) || !assumption_holds(scene, ray, &truth, kind) {
+        return None;
+    }
+    if truth.verdict == Verdict::Hit {
+        C[4].fetch_add(1, Relaxed);
+    }
+    if C[0].load(Relaxed) % 1000 == 0 {
+        eprintln!("{C:?}");
+    }
+    if !hit.is_hit() {
+        return Some(format!("missed: {truth:?}"));
+    }
+    // Read literally, a leaf of the Fitted BVH may end the ray with a root outside its box, where
+    // its list is incomplete: behind the surface. That is what makes `clipped` worth having.
+    if kind == Kind::Fitted && reading == Reading::Literal {
+        return None;
+    }
+    let behind = f64::from(hit.t) > truth.leaves;
+    (behind || field > threshold * (1.0 + share) && hit.verdict == Verdict::Hit)
+        .then(|| format!("wrong front: field {field} at {}, {truth:?}", hit.t))
+}
+
+fn truth_is_hit(truth: &Truth) -> bool {
+    truth.verdict != Verdict::Miss
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 20000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn hits_are_the_oracles(
+        scene in scenes::any_scene(40),
+        eye in [-6.0f32..6.0, -6.0f32..6.0, -6.0f32..6.0],
+        targets in prop::collection::vec([-3.0f32..3.0, -3.0f32..3.0, -3.0f32..3.0], 20),
+        t_max in prop::sample::select(vec![NO_LIMIT, NO_LIMIT, 4.0]),
+    ) {
+        let oracle = Oracle::new(&scene);
+        let eye = Vec3::from(eye);
+        for options in structures() {
+            let tree = Tree::build(&scene, &options).expect("legal options");
+            for reading in [CLIPPED, LITERAL] {
+                let tracer = Tracer::new(&tree, &scene, reading);
+                for &target in &targets {
+                    let direction = (DVec3::from(Vec3::from(target)) - DVec3::from(eye)).normalize_or(DVec3::X);
+                    let ray = Ray { t_max, ..Ray::new(eye, direction.as_vec3()) };
+                    let hit = tracer.first_hit(&ray);
+                    let variant = (options.kind(), reading.reading);
+                    if let Some(complaint) = complaint(&scene, &oracle, &ray, &hit, variant) {
+                        prop_assert!(false, "{options:?} {reading:?} {ray:?}: {complaint}");
+                    }
+                }
+            }
+        }
+    }
+}
