@@ -5,14 +5,24 @@ use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Hit, Ray, Scene, Verdict};
 
 use crate::promise::Promise;
+use crate::stand_in::StandIn;
 
 /// What a method is held to.
 #[derive(Debug, Clone, Copy)]
 pub struct Terms {
     /// Where it must be right.
     pub promise: Promise,
-    /// |F − T|/T at which its root finder may stop.
-    pub residual: f64,
+    /// Where its root finder may stop.
+    pub stop: Stop,
+}
+
+/// How near a root a root finder stops, rounding aside.
+#[derive(Debug, Clone, Copy)]
+pub enum Stop {
+    /// |F − T|/T.
+    Residual(f64),
+    /// |t − t*| over the smallest support radius at the hit.
+    Distance(f64),
 }
 
 /// What was found; a picture is right when there are no violations.
@@ -20,7 +30,7 @@ pub struct Terms {
 pub struct Findings {
     /// What must not be, in words, with the pixel: at most one a pixel.
     pub violations: Vec<String>,
-    /// Wrong verdicts at rays for which the method promises nothing.
+    /// Late, lost or replaced hits at rays for which the method promises nothing.
     pub excused: usize,
     /// Rays too close to call for the oracle.
     pub ambiguous: usize,
@@ -78,12 +88,14 @@ impl<'a> Exam<'a> {
         }
         for (pixel, (our, their)) in ours.iter().zip(theirs).enumerate() {
             let (ray, truth) = (&self.rays[pixel], &self.truths[pixel]);
-            let is_promised = |promise: Promise| {
-                truth.verdict == Verdict::Miss || promise.holds(self.scene, ray, truth)
+            let is_promised = |promise: Promise, hit: &Hit| {
+                let is_clear =
+                    truth.verdict == Verdict::Miss && promise.stand_in(self.scene, ray).is_none();
+                (is_clear || promise.holds(self.scene, ray, truth)) && !hit.fallback
             };
             if truth.is_ambiguous() {
                 findings.ambiguous += 1;
-            } else if !is_promised(our_promise) || !is_promised(their_promise) {
+            } else if !is_promised(our_promise, our) || !is_promised(their_promise, their) {
                 findings.excused += 1;
             } else {
                 findings.measured += usize::from(our.is_hit());
@@ -107,12 +119,19 @@ impl<'a> Exam<'a> {
         findings: &mut Findings,
     ) -> Result<(), String> {
         let (ray, truth) = (&self.rays[pixel], &self.truths[pixel]);
-        if hit.verdict == Verdict::Undecided || hit.fallback {
-            return Err(format!("needed an answer of the method's own, found {hit:?}"));
-        }
         if truth.is_ambiguous() {
             findings.ambiguous += 1;
             return Ok(());
+        }
+        if hit.fallback && terms.promise.allows_fallback(self.scene, ray, truth) {
+            findings.excused += 1;
+            return Ok(());
+        }
+        if hit.verdict == Verdict::Undecided || hit.fallback {
+            return Err(format!("needed an answer of the method's own to {truth:?}, found {hit:?}"));
+        }
+        if let Some(field) = terms.promise.stand_in(self.scene, ray) {
+            return self.judge_stand_in(ray, (truth, hit), terms, &field, findings);
         }
         if Judgement::new(truth, hit).is_wrong() {
             // A method that promises nothing for a ray may be late or miss; it may never see a
@@ -127,8 +146,57 @@ impl<'a> Exam<'a> {
         if !hit.is_hit() {
             return Ok(());
         }
+        if let Err(violation) = self.measure(ray, truth, hit, terms) {
+            let is_late = f64::from(hit.t) > truth.t;
+            if is_late && !terms.promise.holds(self.scene, ray, truth) {
+                findings.excused += 1;
+                return Ok(());
+            }
+            return Err(violation);
+        }
         findings.measured += 1;
-        self.measure(ray, truth, hit, terms)
+        Ok(())
+    }
+
+    /// Judges a root of a field that is not the scene's.
+    fn judge_stand_in(
+        &self,
+        ray: &Ray,
+        (truth, hit): (&Truth, &Hit),
+        terms: &Terms,
+        stand_in: &StandIn,
+        findings: &mut Findings,
+    ) -> Result<(), String> {
+        let t = f64::from(hit.t);
+        let rounding = Rounding::at(self.scene, ray, if hit.is_hit() { t } else { 0.0 });
+        if stand_in.keeps(truth, self.scene.threshold()) {
+            // Two roundings of t, and one of the point where the truth leaves the solid.
+            let is_later = hit.is_hit() && t > truth.leaves * (1.0 + 4.0 * f64::from(f32::EPSILON));
+            if hit.is_hit() != (truth.verdict != Verdict::Miss) || is_later {
+                return Err(format!("needed {truth:?}, found {hit:?}"));
+            }
+        } else if !hit.is_hit() {
+            findings.excused += usize::from(truth.verdict != Verdict::Miss);
+        }
+        if !hit.is_hit() {
+            return Ok(());
+        }
+        findings.measured += 1;
+        let point = ray.origin.as_dvec3() + t * ray.direction.as_dvec3();
+        let threshold = f64::from(self.scene.threshold());
+        let residual = self.oracle.field(point) - threshold;
+        let Stop::Residual(stop) = terms.stop else {
+            return Err(format!("a stand-in needs a residual, found {:?}", terms.stop));
+        };
+        let slack = rounding.of_field + stop * threshold;
+        let (least, greatest) = stand_in.at(t);
+        // A start inside has any field from T up.
+        if residual < least - slack || (t > 0.0 && residual > greatest + slack) {
+            return Err(format!(
+                "F - T = {residual:.3e}, needed from {least:.3e} to {greatest:.3e}, found {hit:?}"
+            ));
+        }
+        self.check_normal(ray, truth, hit, &rounding)
     }
 
     /// Holds a hit to the field at its own point, which is well conditioned where distance is not.
@@ -138,14 +206,32 @@ impl<'a> Exam<'a> {
         let rounding = Rounding::at(self.scene, ray, f64::from(hit.t));
 
         let residual = self.oracle.field(point) - threshold;
-        let allowed = terms.residual * threshold + rounding.of_field;
+        let distance = (f64::from(hit.t) - truth.t).abs() / f64::from(truth.smallest_radius);
+        let allowed = rounding.of_field
+            + match terms.stop {
+                Stop::Residual(residual) => residual * threshold,
+                Stop::Distance(allowed) if distance <= allowed => f64::INFINITY,
+                Stop::Distance(_) => 0.0,
+            };
         // A start inside has any field from T up.
         if truth.verdict != Verdict::Inside && residual.abs() > allowed {
             return Err(format!("|F - T| = {:.3e}, needed at most {allowed:.3e}", residual.abs()));
         }
 
+        self.check_normal(ray, truth, hit, &rounding)
+    }
+
+    fn check_normal(
+        &self,
+        ray: &Ray,
+        truth: &Truth,
+        hit: &Hit,
+        rounding: &Rounding,
+    ) -> Result<(), String> {
+        // A start inside is no surface point: any normal will do.
+        let point = ray.origin.as_dvec3() + f64::from(hit.t) * ray.direction.as_dvec3();
         let exact = self.oracle.normal(point);
-        if rounding.of_normal < 1.0 {
+        if truth.verdict != Verdict::Inside && rounding.of_normal < 1.0 {
             let normal = hit.normal.as_dvec3();
             let angle = normal.cross(exact).length().atan2(normal.dot(exact));
             let allowed = rounding.of_normal.asin() + 1e-6;

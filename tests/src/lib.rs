@@ -3,5 +3,8 @@
 
 pub mod judge;
 pub mod machine;
+pub mod points;
 pub mod promise;
+pub mod refusals;
+pub mod stand_in;
 pub mod trials;

@@ -3,8 +3,12 @@
 //! A published method may be wrong where its paper says so, and nowhere else. Whether a ray is such
 //! a place is decided here from the scene and the truth alone, never from what the method drew.
 
+use illes_fraglist::{MOST_ROOM, Piece};
 use metaball_core::reference::Truth;
 use metaball_core::{Metaball, Ray, Scene};
+
+use crate::points::Points;
+use crate::stand_in::{StandIn, may_overflow};
 
 /// When a method must be right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +20,24 @@ pub enum Promise {
     /// The same for the modified BVH, whose lists are complete only inside the supports of a leaf's
     /// own balls: the support must hold the hit, too.
     ProjectionOfCover,
+    /// Kanamori et al. 2008, section 7: up to the hit, no two points at which the ray enters or
+    /// leaves supports may coincide, or one is lost; nor may more supports overlap than the list of
+    /// a ray holds.
+    Peeling {
+        /// K, the balls that a list holds.
+        list_capacity: usize,
+    },
+    /// Illés and Szécsi: rays whose truth is clearer than the cubic is near the kernel (section 3);
+    /// with exact polynomials every ray. Section 6: more separators than a ray's array holds are
+    /// passed too early.
+    Fragments {
+        /// The polynomial between two separators.
+        piece: Piece,
+        /// Separators that the array holds.
+        room: u32,
+    },
+    /// Every ray.
+    Always,
 }
 
 /// The promise of a method, by name.
@@ -26,6 +48,11 @@ pub fn promise_of(method: &str) -> Promise {
     match method {
         "fbvh" => Promise::Projection,
         "bvh" => Promise::ProjectionOfCover,
+        "kanamori" => Promise::Peeling { list_capacity: 14 },
+        "illes" => Promise::Fragments { piece: Piece::Cubic, room: MOST_ROOM },
+        "illes-absolute" => Promise::Fragments { piece: Piece::AbsoluteCubic, room: MOST_ROOM },
+        "illes-exact" => Promise::Fragments { piece: Piece::Exact, room: MOST_ROOM },
+        "fbvh-certified" => Promise::Always,
         _ => panic!("method {method}: needed a line in promise_of, found none"),
     }
 }
@@ -33,23 +60,44 @@ pub fn promise_of(method: &str) -> Promise {
 impl Promise {
     /// Whether the method must find the first hit of this ray. For rays that hit.
     pub fn holds(self, scene: &Scene, ray: &Ray, truth: &Truth) -> bool {
+        if let Self::Peeling { list_capacity } = self {
+            let points = Points::up_to(truth.t, scene, ray);
+            return points.coincident == 0 && points.overlap <= list_capacity;
+        }
+        if let Self::Fragments { .. } = self {
+            let stand_in = self.stand_in(scene, ray);
+            return stand_in.is_none_or(|field| field.keeps(truth, scene.threshold()));
+        }
         // A start inside needs no projection: the first evaluation tells.
-        if truth.t == 0.0 {
+        if truth.t == 0.0 || self == Self::Always {
             return true;
         }
         scene.balls().any(|ball| {
             let along = Along::new(&ball, ray);
-            let holds_projection = along.half_chord_squared > 0.0;
-            let first = match self {
-                Self::Projection => truth.t,
-                Self::ProjectionOfCover => truth.t.max(along.chord_start()),
-            };
             let covers_hit = self == Self::Projection || along.chord_start() <= truth.t;
-            holds_projection
+            along.half_chord_squared > 0.0
                 && covers_hit
-                && along.projection - along.rounding > first
+                && along.projection - along.rounding > truth.t
                 && along.projection + along.rounding < truth.leaves
         })
+    }
+
+    /// The field that the method puts in the place of the scene's, if it does.
+    pub fn stand_in(self, scene: &Scene, ray: &Ray) -> Option<StandIn> {
+        let Self::Fragments { piece, .. } = self else { return None };
+        StandIn::new(piece, scene, ray)
+    }
+
+    /// Whether the method may draw what its paper puts in the surface's place: by peeling, where
+    /// a list is too short, and a point that is lost leaves its ball on the list for good; with
+    /// fragment lists, where the array of separators is.
+    pub fn allows_fallback(self, scene: &Scene, ray: &Ray, truth: &Truth) -> bool {
+        if let Self::Fragments { room, .. } = self {
+            return may_overflow(room as usize, scene, ray);
+        }
+        let Self::Peeling { list_capacity } = self else { return false };
+        let points = Points::up_to(truth.t, scene, ray);
+        points.overlap + points.coincident > list_capacity
     }
 }
 

@@ -1,6 +1,7 @@
 //! Building from the root down, both structures alike: divide a node, go into its parts, number
 //! what comes back.
 
+mod classified;
 mod fitted;
 mod modified;
 
@@ -62,9 +63,10 @@ pub(crate) fn build(field: &impl Field, options: &Options) -> Result<Tree, Build
         options: *options,
     };
     let mut branch = Branch::default();
+    let mut pool = Vec::new();
     let root = builder
-        .root(&mut own)
-        .and_then(|(own, part)| builder.grow(own, &mut Vec::new(), part, &mut branch));
+        .root(&mut own, &mut pool)
+        .and_then(|(own, part)| builder.grow(own, &mut pool, part, &mut branch));
     branch.finish(root, options)
 }
 
@@ -149,7 +151,11 @@ const VACANT: Node = Node {
 
 impl Builder {
     /// The node of all balls, if there is any surface.
-    fn root<'a>(&self, own: &'a mut [Ball]) -> Option<(&'a mut [Ball], Part)> {
+    fn root<'a>(
+        &self,
+        own: &'a mut [Ball],
+        pool: &mut Vec<Ball>,
+    ) -> Option<(&'a mut [Ball], Part)> {
         let bounds = own.iter().fold(Aabb::EMPTY, |bounds, ball| bounds.union(&ball.bounds()));
         if own.is_empty() {
             return None;
@@ -157,8 +163,13 @@ impl Builder {
         match self.options.structure {
             Structure::ModifiedBvh => Some((own, Part { splits: 0..0, bounds, depth: 0 })),
             Structure::Fitted(fitting) => {
-                let (kept, part) = self.fit(&fitting, own, &mut Vec::new(), 0, bounds, 0)?;
+                let (kept, part) = self.fit(&fitting, own, pool, 0, bounds, 0)?;
                 Some((&mut own[..kept], part))
+            }
+            // One list, in the pool: there is no difference between own and split balls.
+            Structure::Certified(_) => {
+                pool.extend_from_slice(own);
+                Some((&mut own[..0], Part { splits: 0..pool.len(), bounds, depth: 0 }))
             }
         }
     }
@@ -178,6 +189,7 @@ impl Builder {
             let division = match self.options.structure {
                 Structure::ModifiedBvh => self.divide_modified(own, pool, &part),
                 Structure::Fitted(fitting) => self.divide_fitted(&fitting, own, pool, &part),
+                Structure::Certified(classes) => self.divide_classified(&classes, pool, &part),
             };
             match division {
                 Division::Leaf(splits) => {

@@ -177,10 +177,16 @@ pub(crate) fn longest_axis(bounds: &Aabb) -> usize {
     (1..3).fold(0, |longest, axis| if side[axis] > side[longest] { axis } else { longest })
 }
 
-/// Bins of a point in bin widths from the low corner. NaN, from an axis without extent, is bin 0.
+/// Bins of a point in bin widths from the low corner, to the nearest float. NaN, from an axis without
+/// extent, is bin 0.
+///
+/// Adding 2²³ leaves a number's whole part in the low bits of its representation: for all axes at
+/// once, where conversions of floats to integers go one by one.
 fn bin_of(position: Vec3A, bins: usize) -> [usize; 3] {
-    let last = bins as f32 - 1.0;
-    position.to_array().map(|position| position.clamp(0.0, last) as usize)
+    const WHOLE: f32 = (1 << 23) as f32;
+    let last = Vec3A::splat(bins as f32 - 1.0);
+    let shifted = (position - 0.5).max(Vec3A::ZERO).min(last) + WHOLE;
+    shifted.to_array().map(|position| position.to_bits() as usize % MAX_BINS)
 }
 
 /// For each bin, the union of it and all bins behind it.

@@ -1,5 +1,6 @@
 //! Rays through a tree on the CPU, in f32: sections 4 and 5.2.
 
+mod certified;
 mod leaf;
 mod slabs;
 mod work;
@@ -84,6 +85,9 @@ impl<'a, F: Field> Tracer<'a, F> {
     /// As [`Tracer::first_hit`], and tells the counter what it does. With `()` for a counter
     /// nothing of that is compiled.
     pub fn first_hit_counting(&self, ray: &Ray, counter: &mut impl Counter) -> Hit {
+        if self.tree.kind == Kind::Certified {
+            return self.certified_hit(ray, counter);
+        }
         if let Some(leaf) = self.leaf_around(ray.origin)
             && self.value(leaf, ray, 0.0, counter) >= self.field.threshold()
         {
@@ -92,7 +96,12 @@ impl<'a, F: Field> Tracer<'a, F> {
         }
         let found = match self.tree.kind {
             Kind::ModifiedBvh => self.nearest_of_all(ray, counter),
-            Kind::Fitted => self.first_in_order(ray, counter),
+            Kind::Fitted | Kind::Certified => {
+                self.first_in_order(ray, counter, |leaf, stretch, counter| {
+                    let t = self.search_all(leaf, ray, stretch, counter)?;
+                    Some((leaf, t))
+                })
+            }
         };
         found.map_or(Hit::MISS, |(leaf, t)| {
             let normal = self.normal(leaf, ray, t);
@@ -128,7 +137,7 @@ impl<'a, F: Field> Tracer<'a, F> {
                 }
                 Child::Leaf(leaf) => {
                     let complete = match self.tree.kind {
-                        Kind::Fitted => true,
+                        Kind::Fitted | Kind::Certified => true,
                         Kind::ModifiedBvh => self.tree.leaf_balls(leaf).0.iter().any(|&ball| {
                             let support = self.field.support(ball as usize);
                             support.center.distance_squared(point) <= support.radius.powi(2)
@@ -175,9 +184,11 @@ impl<'a, F: Field> Tracer<'a, F> {
                     };
                 }
                 Some(Child::Leaf(leaf)) => {
-                    // A hit beyond the limit cannot be the nearest, but the search must see beyond:
-                    // the bracket ends at a projection, which may lie behind the surface.
-                    if let Some(t) = self.search_own(leaf, ray, counter).filter(|&t| t < limit) {
+                    // The search sees beyond the nearest hit so far: its bracket ends at a
+                    // projection, which may lie behind it though the surface is in front.
+                    if let Some(t) = self.search_own(leaf, ray, counter)
+                        && (t < limit || found.is_none())
+                    {
                         limit = t;
                         found = Some((leaf, t));
                     }
@@ -187,8 +198,14 @@ impl<'a, F: Field> Tracer<'a, F> {
         }
     }
 
-    /// The Fitted BVH: leaves do not overlap, so the first hit in the order of the ray.
-    fn first_in_order(&self, ray: &Ray, counter: &mut impl Counter) -> Option<(usize, f32)> {
+    /// Leaves that do not overlap: the first find in the order of the ray. `search` is given a leaf
+    /// and the stretch of the ray in its box.
+    fn first_in_order<C: Counter, T>(
+        &self,
+        ray: &Ray,
+        counter: &mut C,
+        mut search: impl FnMut(usize, (f32, f32), &mut C) -> Option<T>,
+    ) -> Option<T> {
         let slabs = Slabs::new(ray);
         let mut stack = Stack::new();
         slabs.crossing(&self.tree.bounds, ray.t_max)?;
@@ -218,9 +235,9 @@ impl<'a, F: Field> Tracer<'a, F> {
                 Child::Leaf(leaf) => {
                     let bounds = self.tree.leaves[leaf].bounds();
                     if let Some(stretch) = slabs.crossing(&bounds, ray.t_max)
-                        && let Some(t) = self.search_all(leaf, ray, stretch, counter)
+                        && let Some(find) = search(leaf, stretch, counter)
                     {
-                        return Some((leaf, t));
+                        return Some(find);
                     }
                     next = stack.pop().0;
                 }

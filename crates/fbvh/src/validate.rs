@@ -98,6 +98,14 @@ pub enum Flaw {
         /// The ball.
         ball: u32,
     },
+    /// In the certified tree: a leaf without a list has a point where the field is at T or below.
+    #[error("leaf {leaf}: needed a field above T everywhere, found less at {point}")]
+    NotSolid {
+        /// The leaf.
+        leaf: usize,
+        /// The point, world space, scene units.
+        point: DVec3,
+    },
     /// A point of the surface is in no leaf's box.
     #[error("ball {ball}: the surface at {point} is in no leaf")]
     SurfaceOutside {
@@ -114,8 +122,8 @@ const ROUNDING: f64 = 1e-6;
 impl Tree {
     /// Checks everything that tracing relies on: the order of nodes and leaves, boxes inside boxes,
     /// children apart in the Fitted BVH, who owns a ball, lists complete up to balls that do not
-    /// matter to the surface in the leaf (sampled), and the surface inside leaves (sampled: from
-    /// each ball's centre outwards). Slow, in f64, and with neighbours found without the tree.
+    /// matter to the surface in the leaf (sampled), the surface inside leaves (sampled: from each
+    /// ball's centre outwards), and solid leaves solid (sampled). Slow, in f64, and with neighbours found without the tree.
     ///
     /// # Errors
     /// The first flaw found.
@@ -124,6 +132,7 @@ impl Tree {
         self.check_lists(field)?;
         self.check_completeness(field)?;
         self.check_surface(field)?;
+        self.check_solids(field)?;
         Ok(self.stats())
     }
 
@@ -173,7 +182,7 @@ impl Tree {
         if !inside(&left) || !inside(&right) {
             Some(Flaw::ChildOutside { node })
         } else if axis > 2
-            || self.kind == Kind::Fitted && left.max[axis as usize] > right.min[axis as usize]
+            || self.kind != Kind::ModifiedBvh && left.max[axis as usize] > right.min[axis as usize]
         {
             Some(Flaw::ChildrenOverlap { node, axis })
         } else {
@@ -220,6 +229,7 @@ impl Tree {
         let legal = match self.kind {
             Kind::ModifiedBvh => 1..=1,
             Kind::Fitted => 0..=1,
+            Kind::Certified => 0..=0,
         };
         match owners.iter().position(|found| !legal.contains(found)) {
             Some(ball) => Err(Flaw::Ownership { ball: ball as u32, found: owners[ball] }),
@@ -238,10 +248,14 @@ impl Tree {
                 }
                 if let Child::Leaf(leaf) = *child {
                     let (own, split) = self.leaf_balls(leaf);
-                    let due = self.kind == Kind::Fitted
-                        || own.iter().any(|&other| {
+                    let due = match self.kind {
+                        Kind::ModifiedBvh => own.iter().any(|&other| {
                             overlap(&field.support(ball), &field.support(other as usize))
-                        });
+                        }),
+                        Kind::Fitted => true,
+                        // A leaf without a list is solid.
+                        Kind::Certified => !split.is_empty(),
+                    };
                     if due && !own.contains(&(ball as u32)) && !split.contains(&(ball as u32)) {
                         missing[leaf].push(ball as u32);
                     }
@@ -261,7 +275,6 @@ impl Tree {
     /// Whether balls that reach a leaf's box but are not listed lift the field to T anywhere there:
     /// on a lattice over the part of the box that each of them reaches.
     fn matter(&self, field: &impl Field, leaf: usize, missing: &[u32]) -> bool {
-        const STEPS: usize = 4;
         let threshold = f64::from(field.threshold());
         let (own, split) = self.leaf_balls(leaf);
         let listed: Vec<u32> = own.iter().chain(split).copied().collect();
@@ -269,11 +282,7 @@ impl Tree {
             let Support { center, radius } = field.support(ball as usize);
             let part =
                 Aabb::around_sphere(center, radius).intersection(&self.leaves[leaf].bounds());
-            let (low, side) = (part.min.as_dvec3(), part.extent().as_dvec3());
-            (0..(STEPS + 1).pow(3)).any(|at| {
-                let step = |divisor: usize| (at / divisor % (STEPS + 1)) as f64 / STEPS as f64;
-                let at = DVec3::new(step(1), step(STEPS + 1), step((STEPS + 1).pow(2)));
-                let point = low + side * at;
+            lattice(&part).any(|point| {
                 let with_list = value(field, &listed, point);
                 with_list < threshold * (1.0 - ROUNDING)
                     && with_list + value(field, missing, point) > threshold
@@ -295,6 +304,27 @@ impl Tree {
                 if let Some(point) = surface.filter(|&point| !self.holds(point)) {
                     return Err(Flaw::SurfaceOutside { ball: ball as u32, point });
                 }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_solids(&self, field: &impl Field) -> Result<(), Flaw> {
+        let threshold = f64::from(field.threshold());
+        let is_solid = |leaf: usize| {
+            self.kind == Kind::Certified && self.leaves[leaf].first == self.leaves[leaf + 1].first
+        };
+        for leaf in (0..self.leaf_count()).filter(|&leaf| is_solid(leaf)) {
+            let bounds = self.leaves[leaf].bounds();
+            let near: Vec<u32> = (0..field.ball_count() as u32)
+                .filter(|&ball| {
+                    let Support { center, radius } = field.support(ball as usize);
+                    squared_distance(center, &bounds) < f64::from(radius).powi(2)
+                })
+                .collect();
+            let low = lattice(&bounds).find(|&point| value(field, &near, point) <= threshold);
+            if let Some(point) = low {
+                return Err(Flaw::NotSolid { leaf, point });
             }
         }
         Ok(())
@@ -391,4 +421,14 @@ impl Neighbors {
             .filter(|&other| overlap(&support, &field.support(other as usize)))
             .collect()
     }
+}
+
+/// Points of a closed box, its corners among them.
+fn lattice(bounds: &Aabb) -> impl Iterator<Item = DVec3> + use<> {
+    const STEPS: usize = 4;
+    let (low, side) = (bounds.min.as_dvec3(), bounds.max.as_dvec3() - bounds.min.as_dvec3());
+    (0..(STEPS + 1).pow(3)).map(move |at| {
+        let step = |divisor: usize| (at / divisor % (STEPS + 1)) as f64 / STEPS as f64;
+        low + side * DVec3::new(step(1), step(STEPS + 1), step((STEPS + 1).pow(2)))
+    })
 }

@@ -3,7 +3,8 @@
 mod scenes;
 
 use fbvh::{
-    Boxes, BuildError, Cost, EMPTY, Fitting, Flaw, Kind, MAX_DEPTH, Options, Structure, Tree,
+    Boxes, BuildError, Classes, Cost, EMPTY, Fitting, Flaw, Kind, MAX_DEPTH, Options, Structure,
+    Tree,
 };
 use glam::Vec3;
 use metaball_core::{Kernel, Metaball, Scene};
@@ -16,7 +17,10 @@ fn any_options() -> impl Strategy<Value = Options> {
         prop::sample::select(vec![Boxes::Cut, Boxes::Support, Boxes::PerNode, Boxes::PerBall]);
     let fitted = (boxes, prop::sample::select(vec![0u32, 12, 1000]))
         .prop_map(|(boxes, discard_up_to)| Structure::Fitted(Fitting { boxes, discard_up_to }));
-    let structure = prop_oneof![1 => Just(Structure::ModifiedBvh), 3 => fitted];
+    let certified = (1u32..20, 0.02f32..0.5).prop_map(|(leaf_size, smallest_side)| {
+        Structure::Certified(Classes { leaf_size, smallest_side })
+    });
+    let structure = prop_oneof![1 => Just(Structure::ModifiedBvh), 3 => fitted, 2 => certified];
     let cost = prop::sample::select(vec![
         Cost::Linear,
         Cost::Quadratic { lambda: 0.0 },
@@ -76,7 +80,7 @@ fn clumps() -> Scene {
 #[test]
 fn the_number_of_threads_does_not_matter() {
     let scene = clumps();
-    for options in [Options::modified_bvh(), Options::fitted()] {
+    for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
         let trees = [1, 2, 4].map(|threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| Tree::build(&scene, &options)).expect("legal options")
@@ -90,7 +94,7 @@ fn the_number_of_threads_does_not_matter() {
 #[test]
 fn large_trees_are_well_formed() {
     let scene = clumps();
-    for options in [Options::modified_bvh(), Options::fitted()] {
+    for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
         let tree = Tree::build(&scene, &options).expect("legal options");
         assert_eq!(tree.validate(&scene).map(|stats| stats.leaves), Ok(tree.leaf_count()));
     }
@@ -102,7 +106,7 @@ fn trees_of_another_scene_are_found_out() {
         let balls = (0..50).map(|at| Metaball::new(Vec3::X * distance * at as f32, 1.0));
         Scene::new(balls, Kernel::Wyvill, 0.2).expect("legal balls")
     };
-    for options in [Options::modified_bvh(), Options::fitted()] {
+    for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
         let tree = Tree::build(&row(1.5), &options).expect("legal options");
         assert!(tree.validate(&row(1.5)).is_ok());
         let flaw = tree.validate(&row(1.3)).expect_err("balls have moved");
@@ -113,7 +117,7 @@ fn trees_of_another_scene_are_found_out() {
 #[test]
 fn nothing_to_see_is_an_empty_tree() {
     let empty = Scene::new([], Kernel::QUARTIC, 0.5).expect("legal");
-    for options in [Options::modified_bvh(), Options::fitted()] {
+    for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
         let tree = Tree::build(&empty, &options).expect("legal options");
         assert_eq!((tree.root(), tree.leaf_count(), tree.kind()), (EMPTY, 0, options.kind()));
     }

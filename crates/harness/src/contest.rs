@@ -9,12 +9,12 @@ use metaball_core::{Hit, Verdict, View};
 
 use crate::console::Progress;
 use crate::heat::heat_map;
-use crate::measure::{Contender, Timing, count_work, milliseconds, time_all, views};
+use crate::measure::{Contender, Sampling, Timing, count_work, milliseconds, time_all, views};
 use crate::methods::Method;
 use crate::picture::encode_png;
 use crate::record::{Adapter, Measured, Record, Status, WorkPerRay};
 use crate::reference::Reference;
-use crate::score::{Accuracy, score};
+use crate::score::{Accuracy, is_murky, score};
 
 /// How to hold a contest.
 #[derive(Debug, Clone)]
@@ -23,8 +23,8 @@ pub struct Rules {
     pub methods: Vec<&'static Method>,
     /// Pixels across and down.
     pub size: (u32, u32),
-    /// Timed frames of each method.
-    pub frames: usize,
+    /// How often each is timed.
+    pub sampling: Sampling,
     /// Whether to time along the scene's camera path, where it has one, in place of near its camera.
     pub along_path: bool,
     /// Whether to compare every pixel of a large scene too.
@@ -68,7 +68,7 @@ const COMPARED_WHOLE_BALLS: usize = 10_000;
 
 /// Steps of progress that [`hold`] makes.
 pub fn steps(rules: &Rules) -> u64 {
-    (rules.methods.len() * (rules.frames + 2) + 1) as u64
+    (rules.methods.len() * (rules.sampling.most + 2) + 1) as u64
 }
 
 /// Holds the contest. A method that cannot build or draw has a record that says why, and the others
@@ -82,82 +82,168 @@ pub fn hold(
     rules: &Rules,
     progress: &Progress,
 ) -> anyhow::Result<Contest> {
-    let scene = &bench.scene;
-    let (width, height) = rules.size;
-    let view = View::new(bench.camera, width, height)?;
-    let targets = Targets::new(gpu, width, height, scene.colors().is_some(), false)?;
-    let shade = || -> anyhow::Result<Vec<u8>> {
-        let shaded = Shading::new(gpu).draw(&targets, &view, scene, Picture::Phong)?;
-        encode_png(&shaded.image)
+    let arena = Arena::new(gpu, bench, rules, progress)?;
+    let mut outcomes = Outcomes::new();
+    let drawings = arena.draw(&mut outcomes)?;
+    let mut contest = Contest {
+        scene: bench.name.clone(),
+        about: bench.about.clone(),
+        records: Vec::new(),
+        reference: None,
+        pictures: Vec::new(),
+        remarks: Vec::new(),
     };
-    let stage = |what: &str| progress.stage(format!("{}: {what}", bench.name));
+    if !drawings.is_empty() {
+        arena.judge(drawings, &mut outcomes, &mut contest)?;
+    }
+    contest.records = outcomes.into_values().map(|outcome| arena.record(outcome)).collect();
+    Ok(contest)
+}
 
-    // Each method's first frame is the one to compare, and warms it up. In a scene with colours the
-    // reference's picture takes them from the last method that drew.
-    let mut contenders = Vec::new();
-    let mut shaded = Vec::new();
-    let mut failures = BTreeMap::new();
-    for &method in &rules.methods {
-        stage(method.name);
-        match Contender::prepare(gpu, method, scene, &targets, &view) {
-            Ok(contender) => {
-                shaded.push(shade()?);
-                contenders.push(contender);
-            }
-            Err(error) => {
-                failures.insert(method.name, error);
-            }
-        }
-        progress.advance(1);
+/// What became of each method, by its place in the rules.
+type Outcomes = BTreeMap<usize, (&'static Method, Result<Measured, RenderError>)>;
+
+/// A method's first frame.
+struct Drawing {
+    place: usize,
+    contender: Contender,
+    shaded: Vec<u8>,
+}
+
+/// What the whole of a contest shares.
+struct Arena<'a> {
+    gpu: &'a Gpu,
+    bench: &'a BenchScene,
+    rules: &'a Rules,
+    progress: &'a Progress,
+    view: View,
+    targets: Targets,
+}
+
+impl<'a> Arena<'a> {
+    fn new(
+        gpu: &'a Gpu,
+        bench: &'a BenchScene,
+        rules: &'a Rules,
+        progress: &'a Progress,
+    ) -> anyhow::Result<Self> {
+        let (width, height) = rules.size;
+        let view = View::new(bench.camera, width, height)?;
+        let colors = bench.scene.colors().is_some();
+        let targets = Targets::new(gpu, width, height, colors, false)?;
+        Ok(Self { gpu, bench, rules, progress, view, targets })
     }
 
-    stage("reference");
-    let answers = ask_oracle(gpu, bench, rules, &targets, &view, &contenders)?;
-    let reference = match &answers {
-        Some(answers) => {
-            targets.write_hits(gpu, &answers.hits())?;
-            Some(shade()?)
-        }
-        None => None,
-    };
-    progress.advance(1);
-
-    stage("timing");
-    let path = if rules.along_path { &bench.path[..] } else { &[] };
-    let views = views(&bench.camera, path, &scene.bounds(), rules.size, rules.frames)?;
-    let timings = time_all(gpu, &mut contenders, &targets, &views, || progress.advance(1));
-
-    stage("counting work");
-    let mut results = BTreeMap::new();
-    let mut pictures = Vec::new();
-    if let Some(answers) = &answers {
-        for ((contender, timing), shaded) in contenders.into_iter().zip(timings).zip(shaded) {
-            let method = contender.method;
-            let accuracy = score(answers, &contender.hits)?;
-            let heat = encode_png(&heat_map(answers, &contender.hits))?;
-            let measured = timing.and_then(|timing| {
-                let work = count_work(gpu, method, scene, &view)?;
-                Ok(measured(&contender, timing, accuracy, work))
-            });
-            match measured {
-                Ok(measured) => {
-                    pictures.push(Pictures { method: method.name, shaded, heat });
-                    results.insert(method.name, measured);
+    /// Each method's first frame: the one to compare. It also warms the method up.
+    fn draw(&self, outcomes: &mut Outcomes) -> anyhow::Result<Vec<Drawing>> {
+        let mut drawings = Vec::new();
+        for (place, &method) in self.rules.methods.iter().enumerate() {
+            self.stage(method.name);
+            let scene = &self.bench.scene;
+            match Contender::prepare(self.gpu, method, scene, &self.targets, &self.view) {
+                Ok(contender) => {
+                    drawings.push(Drawing { place, contender, shaded: self.shade()? });
                 }
                 Err(error) => {
-                    failures.insert(method.name, error);
+                    outcomes.insert(place, (method, Err(error)));
                 }
             }
-            progress.advance(1);
+            self.progress.advance(1);
         }
+        Ok(drawings)
     }
 
-    let adapter = Adapter::from(gpu.report());
-    let record = |method: &&'static Method| {
-        let measured = results.remove(method.name);
-        let failure = failures.remove(method.name);
+    /// Compares, times and counts all that drew.
+    fn judge(
+        &self,
+        drawings: Vec<Drawing>,
+        outcomes: &mut Outcomes,
+        contest: &mut Contest,
+    ) -> anyhow::Result<()> {
+        self.stage("reference");
+        let images: Vec<_> = drawings.iter().map(|d| d.contender.hits.as_slice()).collect();
+        let reference = self.ask_oracle(&images)?;
+        // Colours, where there are any, are those of the method that drew last.
+        self.targets.write_hits(self.gpu, &reference.hits())?;
+        contest.reference = Some(self.shade()?);
+        self.progress.advance(1);
+
+        self.stage("timing");
+        let (places, shaded, mut contenders) = unzip(drawings);
+        let timings = self.time(&mut contenders)?;
+
+        self.stage("counting work");
+        for (((place, shaded), contender), timing) in
+            places.into_iter().zip(shaded).zip(contenders).zip(timings)
+        {
+            let method = contender.method;
+            let accuracy = score(&reference, &contender.hits)?;
+            let heat = encode_png(&heat_map(&reference, &contender.hits))?;
+            let outcome = timing.and_then(|timing| {
+                let work = count_work(self.gpu, method, &self.bench.scene, &self.view)?;
+                Ok(measured(&contender, timing, accuracy, work))
+            });
+            if outcome.is_ok() {
+                contest.pictures.push(Pictures { method: method.name, shaded, heat });
+            }
+            outcomes.insert(place, (method, outcome));
+            self.progress.advance(1);
+        }
+        contest.remarks = remarks(&reference);
+        Ok(())
+    }
+
+    /// The truth along the rays that the shaders used, read back.
+    fn ask_oracle(&self, images: &[&[Hit]]) -> anyhow::Result<Reference> {
+        let scene = &self.bench.scene;
+        let size = self.rules.size;
+        let rays = self.targets.read_rays(self.gpu, &self.view)?;
+        let oracle = Oracle::new(scene);
+        if self.rules.every_pixel
+            || rays.len() <= COMPARED_WHOLE_PIXELS
+            || scene.len() <= COMPARED_WHOLE_BALLS
+        {
+            return Ok(Reference::of_every_pixel(size, oracle.first_hits(&rays)));
+        }
+        let radius = scene.supports().iter().map(|ball| ball.radius).fold(f32::INFINITY, f32::min);
+        Ok(Reference::of_telling_pixels(&oracle, &rays, size, images, radius))
+    }
+
+    fn time(
+        &self,
+        contenders: &mut [Contender],
+    ) -> anyhow::Result<Vec<Result<Timing, RenderError>>> {
+        let Rules { sampling, size, along_path, .. } = *self.rules;
+        let path = if along_path { &self.bench.path[..] } else { &[] };
+        let bounds = self.bench.scene.bounds();
+        let views = views(&self.bench.camera, path, &bounds, size, sampling.most)?;
+        let advance = || self.progress.advance(1);
+        Ok(time_all(self.gpu, contenders, &self.targets, &views, sampling.enough, advance))
+    }
+
+    /// What the targets hold, as a PNG.
+    fn shade(&self) -> anyhow::Result<Vec<u8>> {
+        let shading = Shading::new(self.gpu);
+        let scene = &self.bench.scene;
+        let shaded = shading.draw(&self.targets, &self.view, scene, Picture::Phong)?;
+        encode_png(&shaded.image)
+    }
+
+    fn record(
+        &self,
+        (method, outcome): (&'static Method, Result<Measured, RenderError>),
+    ) -> Record {
+        let scene = &self.bench.scene;
+        let (width, height) = self.rules.size;
+        let (status, reason, measured) = match outcome {
+            Ok(measured) => (Status::Ok, None, Some(measured)),
+            Err(error @ RenderError::Incomplete { .. }) => {
+                (Status::Incomplete, Some(error.to_string()), None)
+            }
+            Err(error) => (Status::Unsupported, Some(error.to_string()), None),
+        };
         Record {
-            scene: bench.name.clone(),
+            scene: self.bench.name.clone(),
             balls: scene.len(),
             kernel: scene.kernel().to_string(),
             threshold: scene.threshold(),
@@ -165,50 +251,23 @@ pub fn hold(
             options: BTreeMap::new(),
             width,
             height,
-            adapter: adapter.clone(),
-            status: failure.as_ref().map_or(Status::Ok, status_of),
-            reason: failure.map(|error| error.to_string()),
+            adapter: Adapter::from(self.gpu.report()),
+            status,
+            reason,
             measured,
         }
-    };
-    let records: Vec<_> = rules.methods.iter().map(record).collect();
-    Ok(Contest {
-        scene: bench.name.clone(),
-        about: bench.about.clone(),
-        remarks: remarks(&records, answers.as_ref()),
-        records,
-        reference,
-        pictures,
-    })
+    }
+
+    fn stage(&self, what: &str) {
+        self.progress.stage(format!("{}: {what}", self.bench.name));
+    }
 }
 
-/// The truth along the rays that the shaders used, read back. `None` when nobody drew.
-fn ask_oracle(
-    gpu: &Gpu,
-    bench: &BenchScene,
-    rules: &Rules,
-    targets: &Targets,
-    view: &View,
-    contenders: &[Contender],
-) -> anyhow::Result<Option<Reference>> {
-    if contenders.is_empty() {
-        return Ok(None);
-    }
-    let scene = &bench.scene;
-    let (width, height) = rules.size;
-    let rays = targets.read_rays(gpu, view)?;
-    let oracle = Oracle::new(scene);
-    let whole = rules.every_pixel
-        || scene.len() <= COMPARED_WHOLE_BALLS
-        || rays.len() <= COMPARED_WHOLE_PIXELS;
-    if whole {
-        let truths = oracle.first_hits(&rays);
-        return Ok(Some(Reference::of_every_pixel(width, height, truths)));
-    }
-    let images: Vec<&[Hit]> =
-        contenders.iter().map(|contender| contender.hits.as_slice()).collect();
-    let radius = scene.supports().iter().map(|ball| ball.radius).fold(f32::INFINITY, f32::min);
-    Ok(Some(Reference::of_telling_pixels(&oracle, &rays, rules.size, &images, radius)))
+fn unzip(drawings: Vec<Drawing>) -> (Vec<usize>, Vec<Vec<u8>>, Vec<Contender>) {
+    drawings
+        .into_iter()
+        .map(|Drawing { place, contender, shaded }| (place, shaded, contender))
+        .collect()
 }
 
 fn measured(
@@ -232,31 +291,96 @@ fn measured(
     }
 }
 
-/// Why a method has no result.
-fn status_of(error: &RenderError) -> Status {
-    match error {
-        RenderError::Incomplete { .. } => Status::Incomplete,
-        _ => Status::Unsupported,
-    }
-}
-
-fn remarks(records: &[Record], answers: Option<&Reference>) -> Vec<String> {
+fn remarks(reference: &Reference) -> Vec<String> {
     let mut remarks = Vec::new();
-    let accuracy = records.iter().find_map(|record| Some(&record.measured.as_ref()?.accuracy));
-    if let Some(accuracy) = accuracy.filter(|accuracy| accuracy.is_murky()) {
+    let rays = reference.truths().len();
+    let ambiguous = reference.truths().iter().filter(|truth| truth.is_ambiguous()).count();
+    if is_murky(ambiguous, rays) {
         remarks.push(format!(
-            "{} of {} rays are too close to call: more than one in a thousand.",
-            accuracy.ambiguous, accuracy.rays
+            "{ambiguous} of {rays} rays are too close to call: more than one in a thousand."
         ));
     }
-    if let Some(answers) = answers.filter(|answers| !answers.is_complete()) {
+    if !reference.is_complete() {
         remarks.push(format!(
-            "Compared on {} of {} pixels: {}. Elsewhere the reference picture shows the nearest \
-             compared pixel.",
-            answers.truths().len(),
-            answers.image_pixels(),
-            answers.subset()
+            "Compared on {rays} of {} pixels: {}. Elsewhere the reference's picture shows the \
+             nearest pixel of that lattice.",
+            reference.image_pixels(),
+            reference.subset()
         ));
     }
     remarks
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::{Overrides, load};
+    use metaball_core::Scene;
+    use metaball_core::gpu::{BuildReport, Frame, IsoRenderer};
+
+    use super::*;
+    use crate::methods::METHODS;
+
+    /// A method that can do nothing.
+    struct Unable;
+
+    impl IsoRenderer for Unable {
+        fn name(&self) -> &'static str {
+            "unable"
+        }
+
+        fn build(&mut self, _: &Gpu, _: &Scene) -> Result<BuildReport, RenderError> {
+            Err(RenderError::Unsupported { method: "unable", reason: "needs more".to_owned() })
+        }
+
+        fn encode(&mut self, _: &mut Frame<'_>) -> Result<(), RenderError> {
+            Err(RenderError::NotBuilt { method: "unable" })
+        }
+    }
+
+    static UNABLE: Method = Method {
+        name: "unable",
+        title: "Unable",
+        paper: "none",
+        about: "Fails.",
+        make: |_| Box::new(Unable),
+    };
+
+    #[test]
+    fn one_that_fails_leaves_the_others_alone() {
+        let Some(gpu) = Gpu::for_test() else { return };
+        let bench = load("colors-100", &Overrides::default()).expect("known");
+        let rules = Rules {
+            methods: vec![&UNABLE, &METHODS[0]],
+            size: (48, 36),
+            sampling: Sampling::exactly(2),
+            along_path: true,
+            every_pixel: false,
+        };
+        let contest = hold(&gpu, &bench, &rules, &Progress::new(steps(&rules))).expect("held");
+        let [unable, able] = &contest.records[..] else { panic!("two records") };
+        assert_eq!((unable.method.as_str(), unable.status), ("unable", Status::Unsupported));
+        assert_eq!(unable.reason.as_deref(), Some("method unable: needs more"));
+        assert_eq!((able.method.as_str(), able.status), (METHODS[0].name, Status::Ok));
+        let measured = able.measured.as_ref().expect("drawn");
+        assert_eq!(measured.frame_ms.samples.len(), 2);
+        assert_eq!(measured.accuracy.rays, 48 * 36);
+        assert!(measured.accuracy.oracle_hits > 0 && measured.work.balls_per_ray > 0.0);
+        assert!(contest.reference.is_some() && contest.pictures.len() == 1);
+    }
+
+    #[test]
+    fn without_any_drawing_there_are_only_reasons() {
+        let Some(gpu) = Gpu::for_test() else { return };
+        let bench = load("empty", &Overrides::default()).expect("known");
+        let rules = Rules {
+            methods: vec![&UNABLE],
+            size: (4, 3),
+            sampling: Sampling::exactly(1),
+            along_path: false,
+            every_pixel: false,
+        };
+        let contest = hold(&gpu, &bench, &rules, &Progress::new(steps(&rules))).expect("held");
+        assert_eq!(contest.records.len(), 1);
+        assert!(contest.reference.is_none() && contest.pictures.is_empty());
+    }
 }

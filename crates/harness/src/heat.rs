@@ -26,6 +26,10 @@ pub const MISS: [u8; 3] = [255, 255, 255];
 /// Pixels that were not compared.
 pub const NOT_COMPARED: [u8; 3] = [240, 238, 233];
 
+/// The mark of a wrong verdict reaches so small a part of the picture's width to each side: one pixel
+/// where pictures are shown small, side by side.
+const MARK_SHARE: usize = 320;
+
 /// Draws |t − t*| over the smallest support radius at each compared pixel. A wrong verdict also
 /// covers the pixels around it, so that a single one is seen. `hits` is the whole image, row by row
 /// from the top left.
@@ -46,11 +50,12 @@ pub fn heat_map(reference: &Reference, hits: &[Hit]) -> Image {
             Finding::FalseNegative | Finding::FalsePositive => WRONG,
         };
     }
+    let reach = (width / MARK_SHARE).max(1);
     for pixel in wrong {
         let (row, column) = (pixel / width, pixel % width);
-        for row in row.saturating_sub(1)..=(row + 1).min(height - 1) {
-            let first = column.saturating_sub(1);
-            let last = (column + 1).min(width - 1);
+        for row in row.saturating_sub(reach)..=(row + reach).min(height - 1) {
+            let first = column.saturating_sub(reach);
+            let last = (column + reach).min(width - 1);
             colors[row * width + first..=row * width + last].fill(WRONG);
         }
     }
@@ -103,7 +108,7 @@ mod tests {
         let mut hits = vec![Hit::MISS; 25];
         hits[12] = Hit { verdict: Verdict::Hit, fallback: false, t: 1.0, normal: Vec3::Z };
         hits[24] = hits[12];
-        let image = heat_map(&Reference::of_every_pixel(5, 5, truths), &hits);
+        let image = heat_map(&Reference::of_every_pixel((5, 5), truths), &hits);
         let count =
             |color: [u8; 3]| image.rgba.chunks_exact(4).filter(|pixel| pixel[..3] == color).count();
         assert_eq!((count(WRONG), count(AMBIGUOUS), count(MISS)), (9, 1, 15));

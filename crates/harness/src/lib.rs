@@ -2,7 +2,7 @@
 //! binary `metaball`.
 //!
 //! [`contest`] is the heart: it takes a scene through all [`methods`], asks the oracle about the rays
-//! that the shaders used ([`reference`]), and yields a [`record`] for each. [`score`] holds the one
+//! that the shaders used ([`mod@reference`]), and yields a [`record`] for each. [`score`] holds the one
 //! set of definitions of what is wrong, [`measure`] those of what is fast. [`compare`] and [`render`]
 //! are the commands.
 
@@ -11,10 +11,12 @@ pub mod console;
 pub mod contest;
 pub mod heat;
 pub mod hits_exr;
+pub mod html;
 pub mod list;
 pub mod machine;
 pub mod measure;
 pub mod methods;
+pub mod numbers;
 pub mod output;
 pub mod picture;
 pub mod record;

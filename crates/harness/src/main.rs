@@ -9,6 +9,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
 use harness::contest::Rules;
+use harness::measure::Sampling;
 use harness::methods::{METHODS, Method, find};
 use harness::picture::picture_named;
 use harness::render::{Order, render};
@@ -34,9 +35,9 @@ enum Command {
         /// Methods, separated by commas; all when left out.
         #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = method_parser())]
         methods: Vec<&'static Method>,
-        /// Timed frames of each method on each scene.
-        #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u16).range(1..))]
-        frames: u16,
+        /// Timed frames of each method on each scene; when left out five, or what fits in four seconds.
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        frames: Option<u16>,
         /// Time along the scene's camera path, where it has one.
         #[arg(long)]
         path: bool,
@@ -157,7 +158,7 @@ fn run(command: Command) -> anyhow::Result<()> {
             let rules = Rules {
                 methods: if methods.is_empty() { all() } else { methods },
                 size: common.size(),
-                frames: frames.into(),
+                sampling: frames.map_or(Sampling::QUICK, |n| Sampling::exactly(n.into())),
                 along_path: path,
                 every_pixel,
             };
@@ -204,7 +205,7 @@ mod tests {
         };
         assert_eq!(scenes, DEFAULT_SCENES);
         assert_eq!(scenes[0], "molecule");
-        assert!(methods.is_empty() && frames >= 1);
+        assert!(methods.is_empty() && frames.is_none());
         assert_eq!((common.size(), out), ((640, 480), PathBuf::from("out/compare")));
         assert_eq!(common.adapter(), AdapterChoice::Environment);
         assert_eq!(common.overrides(), Overrides::default());
@@ -219,7 +220,7 @@ mod tests {
         };
         assert_eq!(scenes, ["a.pdb", "scattered:500"]);
         let names: Vec<_> = methods.iter().map(|method| method.name).collect();
-        assert_eq!((names.as_slice(), frames), (&["bvh", "fbvh"][..], 2));
+        assert_eq!((names.as_slice(), frames), (&["bvh", "fbvh"][..], Some(2)));
         assert_eq!(common.size(), (32, 24));
         assert_eq!(common.adapter(), AdapterChoice::Named("llvm".to_owned()));
         let wanted =

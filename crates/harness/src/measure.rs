@@ -23,6 +23,25 @@ pub struct Contender {
     renderer: Box<dyn IsoRenderer>,
 }
 
+/// How many frames are timed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sampling {
+    /// This many, where that does not take too long.
+    pub most: usize,
+    /// A method that has spent so much on them is not timed again, once it has two.
+    pub enough: Duration,
+}
+
+impl Sampling {
+    /// So many frames, however long they take.
+    pub const fn exactly(frames: usize) -> Self {
+        Self { most: frames, enough: Duration::MAX }
+    }
+
+    /// Five frames, or what fits into four seconds.
+    pub const QUICK: Self = Self { most: 5, enough: Duration::from_secs(4) };
+}
+
 /// Times of complete frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timing {
@@ -53,20 +72,23 @@ impl Contender {
 }
 
 /// Draws every view with every contender, in turn: A B A B, so that a machine that grows hot or busy
-/// is so for all. A contender that fails has an error in its place and is not drawn again. Calls
-/// `after_frame` after each frame.
+/// is so for all. A contender that fails has an error in its place and is not drawn again, nor is one
+/// that has had `enough` of at least two frames. Calls `after_frame` for each view and contender.
 pub fn time_all(
     gpu: &Gpu,
     contenders: &mut [Contender],
     targets: &Targets,
     views: &[View],
+    enough: Duration,
     mut after_frame: impl FnMut(),
 ) -> Vec<Result<Timing, RenderError>> {
     let mut frames: Vec<Result<Frames, RenderError>> =
         contenders.iter().map(|_| Ok(Frames::default())).collect();
     for view in views {
         for (contender, frames) in contenders.iter_mut().zip(&mut frames) {
-            if let Ok(taken) = frames {
+            if let Ok(taken) = frames
+                && !(taken.wall_ms.len() >= LEAST_FRAMES && taken.total() >= enough)
+            {
                 match gpu::render(gpu, contender.renderer.as_mut(), targets, view) {
                     Ok(report) => taken.add(report.wall, &report.passes),
                     Err(error) => *frames = Err(error),
@@ -145,7 +167,14 @@ struct Frames {
     passes_ms: BTreeMap<String, Vec<f64>>,
 }
 
+/// Frames of even the slowest method: one alone says nothing of its spread.
+const LEAST_FRAMES: usize = 2;
+
 impl Frames {
+    fn total(&self) -> Duration {
+        Duration::from_secs_f64(1e-3 * self.wall_ms.iter().sum::<f64>())
+    }
+
     fn add(&mut self, wall: Duration, passes: &[(String, Duration)]) {
         self.wall_ms.push(milliseconds(wall));
         for (label, time) in passes {
@@ -181,6 +210,7 @@ mod tests {
         frames.add(ms(10), &[("rays".into(), ms(1)), ("trace".into(), ms(9))]);
         frames.add(ms(30), &[("rays".into(), ms(3)), ("trace".into(), ms(27))]);
         frames.add(ms(20), &[("rays".into(), ms(2))]);
+        assert_eq!(frames.total(), ms(60));
         let timing = frames.summary();
         assert_eq!(timing.frame_ms.median, 20.0);
         assert_eq!(timing.frame_ms.samples, [10.0, 30.0, 20.0]);

@@ -2,6 +2,7 @@
 
 use fbvh::gpu::Renderer;
 use fbvh::{Options, TraceOptions};
+use illes_fraglist::Piece;
 use metaball_core::gpu::IsoRenderer;
 
 /// A method that can be compared.
@@ -37,7 +38,55 @@ pub const METHODS: &[Method] = &[
                 the ray.",
         make: |counting| bvh("fbvh", Options::fitted(), counting),
     },
+    Method {
+        name: "fbvh-certified",
+        title: "Certified FBVH",
+        paper: "not published: exact ranges in the place of the paper's assumption",
+        about: "Boxes in which the field stays below or above the threshold are dropped or solid; \
+                the others are searched by exact bounds, so that no answer is wrong.",
+        make: |counting| bvh("fbvh-certified", Options::certified(), counting),
+    },
+    Method {
+        name: "kanamori",
+        title: "Depth peeling",
+        paper: "Kanamori et al. 2008",
+        about: "Supports are drawn as rectangles and peeled layer by layer; each ray keeps a list of \
+                the balls it is in and searches every interval by Bézier clipping.",
+        make: |counting| {
+            let options = kanamori_peel::Options::default();
+            Box::new(kanamori_peel::Renderer::new("kanamori", options, counting))
+        },
+    },
+    Method {
+        name: "illes",
+        title: "Fragment lists",
+        paper: "Illés and Szécsi, Efficient GPU Fluid Visualization",
+        about: "Each pixel gathers a list of the balls along its ray; between the ends and midpoints \
+                of their chords the field is approximated by a cubic.",
+        make: |counting| fragment_lists("illes", Piece::Cubic, counting),
+    },
+    Method {
+        name: "illes-absolute",
+        title: "Fragment lists, printed basis",
+        paper: "Illés and Szécsi, Efficient GPU Fluid Visualization, section 4",
+        about: "The same with the cubic as printed, a running sum in powers of the distance, which \
+                loses its digits away from the eye.",
+        make: |counting| fragment_lists("illes-absolute", Piece::AbsoluteCubic, counting),
+    },
+    Method {
+        name: "illes-exact",
+        title: "Fragment lists, exact polynomials",
+        paper: "Illés and Szécsi, Efficient GPU Fluid Visualization, section 3",
+        about: "The same with the field's own polynomial, of degree four or six, in place of the \
+                cubic.",
+        make: |counting| fragment_lists("illes-exact", Piece::Exact, counting),
+    },
 ];
+
+fn fragment_lists(name: &'static str, piece: Piece, counting: bool) -> Box<dyn IsoRenderer> {
+    let options = illes_fraglist::Options { piece, ..illes_fraglist::Options::default() };
+    Box::new(illes_fraglist::Renderer::new(name, options, counting))
+}
 
 fn bvh(name: &'static str, options: Options, counting: bool) -> Box<dyn IsoRenderer> {
     Box::new(Renderer::new(name, options, TraceOptions::default(), counting))

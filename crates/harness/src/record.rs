@@ -2,6 +2,7 @@
 //! from.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::Path;
 
 use anyhow::Context;
@@ -85,6 +86,17 @@ pub enum Status {
     Incomplete,
     /// The method or the adapter cannot do this scene.
     Unsupported,
+}
+
+impl fmt::Display for Status {
+    /// As in the file.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Ok => "ok",
+            Self::Incomplete => "incomplete",
+            Self::Unsupported => "unsupported",
+        })
+    }
 }
 
 /// The adapter that drew.
@@ -270,6 +282,9 @@ mod tests {
         ];
         documented.sort_unstable();
         assert_eq!(keys(&value), documented);
+        for status in [Status::Ok, Status::Incomplete, Status::Unsupported] {
+            assert_eq!(json!(status), json!(status.to_string()));
+        }
         assert_eq!(value["status"], json!("ok"));
         assert_eq!(keys(&value["adapter"]), ["backend", "driver", "name"]);
         assert_eq!(keys(&value["frame_ms"]), ["median", "p25", "p75", "samples"]);

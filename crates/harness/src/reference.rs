@@ -24,7 +24,7 @@ impl Reference {
     ///
     /// # Panics
     /// When there are not width times height of them.
-    pub fn of_every_pixel(width: u32, height: u32, truths: Vec<Truth>) -> Self {
+    pub fn of_every_pixel((width, height): (u32, u32), truths: Vec<Truth>) -> Self {
         let pixels = width as usize * height as usize;
         assert_eq!(truths.len(), pixels, "a truth for each pixel");
         let subset = "every pixel".to_owned();
@@ -141,5 +141,55 @@ fn as_hit(truth: &Truth) -> Hit {
         fallback: false,
         t: truth.t as f32,
         normal: truth.normal.as_vec3(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::{Overrides, load};
+    use metaball_core::Verdict;
+
+    use super::*;
+
+    #[test]
+    fn a_part_tells_what_the_whole_does() {
+        let bench = load("random-200", &Overrides::default()).expect("known");
+        let size = (64, 48);
+        let rays: Vec<_> = (0..size.0 * size.1)
+            .map(|pixel| {
+                let (column, row) = (pixel % size.0, pixel / size.0);
+                let direction = bench.camera.exact_direction(column, row, size.0, size.1);
+                Ray::new(bench.camera.eye(), direction.as_vec3())
+            })
+            .collect();
+        let oracle = Oracle::new(&bench.scene);
+        let whole = Reference::of_every_pixel(size, oracle.first_hits(&rays));
+        let image = whole.hits();
+        let mut other = image.clone();
+        other[0] = Hit { verdict: Verdict::Hit, t: 1.0, ..Hit::MISS };
+
+        let part = Reference::of_telling_pixels(&oracle, &rays, size, &[&image, &other], 1e-3);
+        assert!(whole.is_complete() && !part.is_complete());
+        assert!(part.rays().any(|(pixel, _)| pixel == 0), "a disagreement");
+        let middle = (2 * 64 + 2, &whole.truths()[2 * 64 + 2]);
+        assert!(part.rays().any(|ray| ray == middle), "the lattice");
+        assert!(part.rays().zip(part.rays().skip(1)).all(|(one, next)| one.0 < next.0));
+        assert!(part.rays().all(|(pixel, truth)| *truth == whole.truths()[pixel]));
+
+        // What is filled in differs from the truth only where nobody looked.
+        let filled = part.hits();
+        for (pixel, truth) in part.rays() {
+            assert_eq!(filled[pixel].verdict, truth.verdict);
+        }
+        let hits = |image: &[Hit]| image.iter().filter(|hit| hit.is_hit()).count();
+        assert!(hits(&image) > 100);
+        assert_eq!(hits(&filled), hits(&image), "edges are looked at, so silhouettes are right");
+    }
+
+    #[test]
+    fn cut_off_cells_take_the_one_before() {
+        assert_eq!([0, 3, 4, 7].map(|x| middle(x, 8)), [2, 2, 6, 6]);
+        assert_eq!([8, 9].map(|x| middle(x, 10)), [6, 6]);
+        assert_eq!(middle(0, 1), 0);
     }
 }

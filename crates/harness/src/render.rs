@@ -10,9 +10,9 @@ use crate::console;
 use crate::hits_exr::write_hits;
 use crate::measure::milliseconds;
 use crate::methods::Method;
+use crate::numbers::{decimal, grouped};
 use crate::output::write_atomically;
 use crate::picture::encode_png;
-use crate::report::{decimal, grouped};
 
 /// What to draw, how, and where to.
 #[derive(Debug, Clone)]

@@ -7,9 +7,6 @@ use serde::{Deserialize, Serialize};
 use crate::reference::Reference;
 use crate::stats::{quantile, sorted};
 
-/// Share of ambiguous rays above which a scene should say so.
-pub const AMBIGUOUS_SHARE: f64 = 1e-3;
-
 /// A hit further than this from the true one, in smallest support radii there, lies on a wrong
 /// front.
 pub const WRONG_FRONT: f64 = 0.05;
@@ -70,11 +67,6 @@ impl Accuracy {
     pub fn wrong_verdicts(&self) -> usize {
         self.false_negative + self.false_positive + self.wrong_front
     }
-
-    /// Whether so many rays are ambiguous that the scene is a poor judge.
-    pub fn is_murky(&self) -> bool {
-        self.ambiguous as f64 > AMBIGUOUS_SHARE * self.rays as f64
-    }
 }
 
 /// What became of one ray.
@@ -130,6 +122,11 @@ impl Judgement {
                 Finding::Miss | Finding::Undecided => false,
             }
     }
+}
+
+/// Whether so many of the rays are ambiguous, more than one in a thousand, that a scene should say so.
+pub fn is_murky(ambiguous: usize, rays: usize) -> bool {
+    ambiguous * 1000 > rays
 }
 
 /// Whether the reference finds a surface point along the ray.
@@ -272,7 +269,7 @@ mod tests {
 
     fn reference() -> Reference {
         let truths = rays().iter().map(|ray| truth(&TWO, ray)).collect();
-        Reference::of_every_pixel(SIZE, SIZE, truths)
+        Reference::of_every_pixel((SIZE, SIZE), truths)
     }
 
     /// What a method that is right to f32 finds.
@@ -312,7 +309,7 @@ mod tests {
     #[test]
     fn canary_missing_ball() {
         let without: Vec<_> = rays().iter().map(|ray| truth(&TWO[..1], ray)).collect();
-        let hits = Reference::of_every_pixel(SIZE, SIZE, without).hits();
+        let hits = Reference::of_every_pixel((SIZE, SIZE), without).hits();
         assert!(score(&reference(), &hits).expect("equal sizes").false_negative > 50);
     }
 
@@ -364,7 +361,7 @@ mod tests {
         let inside = Truth { verdict: Verdict::Inside, t: 0.0, ..truth(&TWO, &ray) };
         let hit = Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal: Vec3::Z };
         assert_eq!(judge(inside, hit).finding, Finding::Hit { error: 0.0 });
-        let reference = Reference::of_every_pixel(1, 1, vec![inside]);
+        let reference = Reference::of_every_pixel((1, 1), vec![inside]);
         let accuracy = score(&reference, &[hit]).expect("equal sizes");
         assert_eq!((accuracy.oracle_hits, accuracy.rel_rms_t), (1, None));
 

@@ -4,6 +4,7 @@
 #define_import_path metaball::fbvh::leaf
 
 #import metaball::field::{contribution, depth_below_rim, offset_at}
+#import metaball::hit::{HIT, INSIDE}
 #import metaball::fbvh::structure::{is_empty, leaves, lists, through_box, Stretch}
 #import metaball::fbvh::suspend::{can_go_on, spent}
 #import metaball::scene::{scene, supports}
@@ -25,10 +26,17 @@ fn first_hit_ends() -> bool {
     return fitted;
 }
 
+// The status of a hit just found: at the ray's origin the field was T or more to begin with.
+fn status_found() -> u32 {
+    return select(INSIDE, HIT, search.high > 0.0);
+}
+
 // What a search has come to.
 const MISSED: u32 = 0u;
 const FOUND: u32 = 1u;
 const WAITING: u32 = 2u;
+// Certified searches alone have doubts.
+const DOUBTED: u32 = 3u;
 
 // Stages of a search.
 const ENTER: u32 = 0u;

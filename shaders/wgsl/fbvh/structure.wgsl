@@ -64,7 +64,7 @@ fn through_box(low: vec3<f32>, high: vec3<f32>, inverse: vec3<f32>, t_max: f32) 
     );
 }
 
-// The two children of a node in the order in which the ray enters them. `far` is EMPTY where the ray
+// The two children of a node in the order in which the ray visits them. `far` is EMPTY where the ray
 // meets at most one, `near` where it meets none. The order depends on the ray and the boxes alone,
 // so that a traversal taken up again finds it as it was.
 struct Children {
@@ -74,13 +74,21 @@ struct Children {
     far_enter: f32,
 }
 
-fn children_along(node: Node, inverse: vec3<f32>, t_max: f32) -> Children {
+// Boxes on either side of a plane are visited by the side on which the ray comes, which no rounding
+// can mistake; boxes that overlap, in the order in which the ray enters them.
+fn children_along(
+    node: Node,
+    direction: vec3<f32>,
+    inverse: vec3<f32>,
+    t_max: f32,
+    parted: bool,
+) -> Children {
     let left = through_box(node.left_min, node.left_max, inverse, t_max);
     let right = through_box(node.right_min, node.right_max, inverse, t_max);
     let left_ref = select(node.left, EMPTY, is_empty(left));
     let right_ref = select(node.right, EMPTY, is_empty(right));
-    let right_first = left_ref == EMPTY || (right_ref != EMPTY && right.enter < left.enter);
-    if right_first {
+    let right_before = select(right.enter < left.enter, direction[node.axis] < 0.0, parted);
+    if left_ref == EMPTY || (right_ref != EMPTY && right_before) {
         return Children(right_ref, left_ref, right.enter, left.enter);
     }
     return Children(left_ref, right_ref, left.enter, right.enter);

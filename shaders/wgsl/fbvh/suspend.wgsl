@@ -9,8 +9,8 @@
 #import metaball::fbvh::structure::EMPTY
 #import metaball::status::{report_finished, report_needed, report_unfinished}
 
-// Iterations after which a ray waits. One walk along a leaf's list may still follow: with lists of
-// at most 100,000 balls, taken four at a time, no invocation comes near 65,535.
+// Iterations after which a ray waits. A walk along a leaf's list may still follow, and another for
+// the normal: LONGEST_LIST of crates/fbvh/src/gpu/device_tree.rs bounds them.
 @id(16) override budget: u32 = 32768u;
 
 // A ray between two dispatches. Twin: Suspended of crates/fbvh/src/gpu/layout.rs.

@@ -22,7 +22,8 @@ var<private> stack: array<u32, MAX_DEPTH>;
 var<private> enters: array<f32, MAX_DEPTH>;
 var<private> depth: u32;
 
-// The nearest hit so far; `best_status` is MISS where there is none, `best_t` then the ray's end.
+// The nearest hit so far. Where there is none, `best_status` is MISS, or UNDECIDED if a leaf had
+// doubts, and `best_t` the ray's end.
 var<private> best_t: f32;
 var<private> best_leaf: u32;
 var<private> best_status: u32;
@@ -45,13 +46,18 @@ fn pop() -> u32 {
     return structure::EMPTY;
 }
 
+fn children_of(node: structure::Node, ray: Ray, inverse: vec3<f32>) -> structure::Children {
+    let parted = leaf::first_hit_ends();
+    return structure::children_along(node, ray.direction, inverse, ray.t_max, parted);
+}
+
 // Walks from the root to a place where the ray waited, and pushes what was left to visit after it.
 fn descend(place: u32, ray: Ray, inverse: vec3<f32>) {
     var current = root;
     while current != place {
         suspend::spent++;
         let node = structure::nodes[current];
-        let children = structure::children_along(node, inverse, ray.t_max);
+        let children = children_of(node, ray, inverse);
         current = select(node.right, node.left, structure::is_below_left(node, place));
         if current == children.near && children.far != structure::EMPTY {
             push(children.far, children.far_enter);
@@ -77,17 +83,20 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
             if outcome == leaf::FOUND && leaf::search.high < best_t {
                 best_t = leaf::search.high;
                 best_leaf = index;
-                best_status = select(hit::INSIDE, hit::HIT, best_t > 0.0);
+                best_status = leaf::status_found();
                 if leaf::first_hit_ends() {
                     return structure::EMPTY;
                 }
+            }
+            if outcome == leaf::DOUBTED {
+                best_status = hit::UNDECIDED;
             }
             leaf::search.stage = leaf::ENTER;
             place = pop();
         } else {
             count_node();
             let node = structure::nodes[place];
-            let children = structure::children_along(node, inverse, ray.t_max);
+            let children = children_of(node, ray, inverse);
             if children.far != structure::EMPTY && children.far_enter < best_t {
                 push(children.far, children.far_enter);
             }
@@ -104,6 +113,10 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
 fn write(pixel: u32, ray: Ray) {
     if best_status == hit::MISS {
         hit::write_miss(pixel);
+        return;
+    }
+    if best_status == hit::UNDECIDED && best_t == ray.t_max {
+        hit::write_hit(pixel, 0.0, -ray.direction, hit::UNDECIDED);
         return;
     }
     var slope = vec3(0.0);

@@ -15,3 +15,8 @@ fn kernel_slope(v: f32) -> f32 {
     let rest = 1.0 - rho;
     return 15.0 * rho * rest * rest;
 }
+
+// The greatest slope from the rim up to v. The slope peaks at rho = 1/3.
+fn steepest_slope(v: f32) -> f32 {
+    return select(kernel_slope(v), 20.0 / 9.0, v > 8.0 / 9.0);
+}

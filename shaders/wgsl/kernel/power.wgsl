@@ -27,3 +27,8 @@ fn power(v: f32, n: u32) -> f32 {
     product *= select(1.0, fourth * fourth, (n & 8u) != 0u);
     return product;
 }
+
+// The greatest slope from the rim up to v: the slope grows with v.
+fn steepest_slope(v: f32) -> f32 {
+    return kernel_slope(v);
+}

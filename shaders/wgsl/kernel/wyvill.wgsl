@@ -12,3 +12,8 @@ fn kernel_slope(v: f32) -> f32 {
     let depth = max(v, 0.0);
     return depth * (10.0 + 12.0 * depth) * (1.0 / 9.0);
 }
+
+// The greatest slope from the rim up to v: the slope grows with v.
+fn steepest_slope(v: f32) -> f32 {
+    return kernel_slope(v);
+}

@@ -6,9 +6,10 @@ use super::pipelines::Layouts;
 use super::waiting::WaitingRoom;
 use crate::Tree;
 
-/// The longest list that one walk of a shader may go along: with four balls an iteration and the
-/// budget of `fbvh/suspend.wgsl` this stays below the 65,535 iterations of software Vulkan.
-const LONGEST_LIST: u32 = 100_000;
+/// The longest list of a leaf. Walks along a list follow the budget of `fbvh/suspend.wgsl`, 32,768
+/// iterations, once for the field and once for the normal: so no invocation comes near the 65,535
+/// iterations after which software Vulkan ends it.
+const LONGEST_LIST: u32 = 15_000;
 
 /// The three arrays of a tree, bound together with the room for waiting rays.
 pub(super) struct DeviceTree {

@@ -164,3 +164,57 @@ impl IsoRenderer for Renderer {
         Ok(true)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use metaball_shaders::{KernelModule, Variant, compose, host_layout, struct_layout};
+
+    use super::waiting::{PoolHead, Suspended};
+    use crate::{Leaf, Node};
+
+    #[test]
+    fn host_structs_are_their_wgsl_twins() {
+        for leaf_test in [&["fbvh/leaf"], &["fbvh/certified_leaf"]] {
+            let variant = Variant {
+                kernel: KernelModule::Power,
+                strengths: false,
+                colors: false,
+                counting: false,
+                chosen: leaf_test,
+            };
+            let module = compose("fbvh/trace", &variant).expect("composes");
+            let twin = |name| struct_layout(&module, name).expect("used by the shader");
+            let node = host_layout!(Node {
+                left_min,
+                left,
+                left_max,
+                right,
+                right_min,
+                axis,
+                right_max,
+                first_right_leaf,
+            });
+            assert_eq!(node, twin("Node"));
+            assert_eq!(host_layout!(Leaf { min, first, max, own }), twin("Leaf"));
+            let suspended = host_layout!(Suspended {
+                pixel,
+                place,
+                stage,
+                next,
+                low,
+                low_value,
+                high,
+                high_value,
+                iterations,
+                best_t,
+                best_leaf,
+                best_status,
+            });
+            assert_eq!(suspended, twin("Suspended"));
+            let head = host_layout!(PoolHead { groups, groups_y, groups_z, waiting });
+            let pool = twin("Pool");
+            assert_eq!(head.members[..], pool.members[..4]);
+            assert_eq!(pool.members[4], ("slots".to_owned(), head.size));
+        }
+    }
+}

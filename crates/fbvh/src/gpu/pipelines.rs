@@ -36,6 +36,10 @@ impl Pipelines {
         options: &TraceOptions,
     ) -> Result<Self, RenderError> {
         let Specialized { scene, kind, root } = specialized;
+        let scene = scene.choosing(match kind {
+            Kind::ModifiedBvh | Kind::Fitted => &["fbvh/leaf"],
+            Kind::Certified => &["fbvh/certified_leaf"],
+        });
         let layouts = Layouts {
             frame: frame_layout(gpu, &scene),
             scene: scene_layout(gpu, &scene),
@@ -44,13 +48,16 @@ impl Pipelines {
         // Section 4 leaves no choice: the modified BVH is always read literally.
         let clipped = kind == Kind::Fitted && options.reading == Reading::Clipped;
         // The ids of the override constants in fbvh/leaf.wgsl and fbvh/trace.wgsl.
-        let constants = [
+        let published = [
             ("17", f64::from(u8::from(kind == Kind::Fitted))),
             ("18", f64::from(u8::from(clipped))),
             ("19", f64::from(options.tolerance)),
             ("20", f64::from(options.max_iterations)),
-            ("21", f64::from(root)),
         ];
+        let mut constants = vec![("21", f64::from(root))];
+        if kind != Kind::Certified {
+            constants.extend(published);
+        }
         let groups = [&layouts.frame, &layouts.scene, &layouts.tree];
         let pipeline = |label, entry| {
             compute_pipeline(gpu, label, "fbvh/trace", entry, &scene, &groups, &constants)

@@ -165,7 +165,7 @@ impl<F: Field> Tracer<'_, F> {
     }
 
     /// All balls of a leaf.
-    fn list(&self, leaf: usize) -> &[u32] {
+    pub(super) fn list(&self, leaf: usize) -> &[u32] {
         let (first, end) = (self.tree.leaves[leaf].first, self.tree.leaves[leaf + 1].first);
         &self.tree.lists[first as usize..end as usize]
     }

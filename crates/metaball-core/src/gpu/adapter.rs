@@ -130,12 +130,12 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> 
     let instance =
         wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
     let adapters = || pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-    let name = match choice {
-        AdapterChoice::Environment => std::env::var("WGPU_ADAPTER_NAME").ok(),
-        AdapterChoice::Named(name) => Some(name.clone()),
-        AdapterChoice::Software => None,
+    let choice = match (choice, std::env::var("WGPU_ADAPTER_NAME")) {
+        (AdapterChoice::Environment, Ok(name)) => AdapterChoice::Named(name),
+        _ => choice.clone(),
     };
-    let adapter = if let Some(name) = name.map(|name| name.to_lowercase()) {
+    let adapter = if let AdapterChoice::Named(name) = &choice {
+        let name = name.to_lowercase();
         adapters()
             .into_iter()
             .find(|adapter| adapter.get_info().name.to_lowercase().contains(&name))
@@ -143,13 +143,13 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> 
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::from_env()
                 .unwrap_or(wgpu::PowerPreference::HighPerformance),
-            force_fallback_adapter: *choice == AdapterChoice::Software,
+            force_fallback_adapter: choice == AdapterChoice::Software,
             ..wgpu::RequestAdapterOptions::default()
         };
         pollster::block_on(instance.request_adapter(&options)).ok()
     };
     adapter.ok_or_else(|| GpuError::NoAdapter {
-        choice: choice.clone(),
+        choice,
         found: adapters().iter().map(|adapter| adapter.get_info().name).collect(),
     })
 }
@@ -160,10 +160,9 @@ mod tests {
 
     #[test]
     fn a_missing_adapter_says_what_to_do() {
-        let error = GpuError::NoAdapter {
-            choice: AdapterChoice::Named("Voodoo".to_owned()),
-            found: vec!["llvmpipe".to_owned()],
-        };
+        let nonsense = AdapterChoice::Named("Voodoo".to_owned());
+        assert!(matches!(choose(&nonsense), Err(GpuError::NoAdapter { .. })));
+        let error = GpuError::NoAdapter { choice: nonsense, found: vec!["llvmpipe".to_owned()] };
         let text = error.to_string();
         assert!(
             text.starts_with("no graphics adapter with \"Voodoo\" in its name; found llvmpipe")

@@ -25,8 +25,8 @@ pub struct Gpu {
 
 impl Gpu {
     /// Opens the adapter. Of its features only timestamps are asked for, if it has them; of its
-    /// limits those that bound the size of a scene and of a picture, and the number of storage
-    /// buffers of a shader.
+    /// limits those that bound the size of a scene and of a picture, the number of storage buffers
+    /// of a shader, and the targets of a pass.
     ///
     /// # Errors
     /// When there is no such adapter; the text says how to get one.
@@ -40,6 +40,8 @@ impl Gpu {
             max_storage_buffer_binding_size: own.max_storage_buffer_binding_size,
             max_storage_buffers_per_shader_stage: own.max_storage_buffers_per_shader_stage,
             max_texture_dimension_2d: own.max_texture_dimension_2d,
+            max_color_attachments: own.max_color_attachments,
+            max_color_attachment_bytes_per_sample: own.max_color_attachment_bytes_per_sample,
             ..wgpu::Limits::default()
         };
         let report = AdapterReport::new(&info, &limits, !features.is_empty());

@@ -157,6 +157,7 @@ impl SpherePicture {
 
 /// Each ball's sphere of its own threshold, with the ball's colour or a common one.
 fn core_spheres(scene: &Scene) -> Vec<CoreSphere> {
+    // As `WHITE` of shade/light.wgsl.
     const WHITE: Vec3 = Vec3::new(0.80, 0.78, 0.74);
     let cores = scene.balls().enumerate().filter_map(|(index, ball)| {
         let radius = scene.kernel().core_radius(&ball, scene.threshold())? as f32;

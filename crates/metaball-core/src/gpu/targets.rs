@@ -145,7 +145,7 @@ impl Targets {
         (self.width.div_ceil(TILE), self.height.div_ceil(TILE))
     }
 
-    /// Bytes on the device.
+    /// Bytes on the device, but for the clock's 64 KiB and a solid scene's 4 a pixel.
     pub fn bytes(&self) -> u64 {
         let optional = [&self.colors, &self.work].into_iter().flatten();
         let always = [&self.view, &self.rays, &self.hits, &self.status].into_iter();

@@ -1,0 +1,70 @@
+//! What can be chosen.
+
+use metaball_core::Kernel;
+
+/// The polynomial between two separators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Piece {
+    /// The published cubic, made anew from the balls active in each piece.
+    Cubic,
+    /// The published cubic as the printed running sum in powers of t, which loses its digits away
+    /// from the eye.
+    AbsoluteCubic,
+    /// The field itself, of degree four or six.
+    Exact,
+}
+
+/// Settings of a renderer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// The polynomial between two separators.
+    pub piece: Piece,
+    /// Separators in a ray's local array, from 3 to [`MOST_ROOM`]; others are taken as the nearest
+    /// of these. The paper has "surely less than 100".
+    pub room: u32,
+    /// List nodes that the pool begins with, 8 bytes each. Too few cost a frame drawn again.
+    pub first_nodes: u32,
+}
+
+/// The largest [`Options::room`]: the size that the array is compiled with, `MOST` of
+/// `illes_fraglist/records.wgsl`.
+pub const MOST_ROOM: u32 = 96;
+
+impl Default for Options {
+    /// The published method; 8 MB of nodes.
+    fn default() -> Self {
+        Self { piece: Piece::Cubic, room: MOST_ROOM, first_nodes: 1 << 20 }
+    }
+}
+
+impl Piece {
+    /// Names of the WGSL modules to choose.
+    pub(crate) fn modules(self) -> &'static [&'static str] {
+        match self {
+            Self::Cubic => &["illes_fraglist/rebuilt"],
+            Self::AbsoluteCubic => &["illes_fraglist/absolute"],
+            Self::Exact => &["illes_fraglist/exact"],
+        }
+    }
+
+    /// Whether this piece can stand for the kernel; if not, why.
+    pub(crate) fn refusal(self, kernel: Kernel) -> Option<String> {
+        if self != Self::Exact || exact_degree(kernel).is_some() {
+            return None;
+        }
+        let needed = "needed a kernel that is a polynomial of degree six or less along a ray";
+        Some(match kernel.degree_along_ray() {
+            Some(degree) => format!("{needed}, found {kernel} of degree {degree}"),
+            None => format!("{needed}, found {kernel}, which is none"),
+        })
+    }
+}
+
+/// The degree in which the exact piece is written, 4 or 6; `None` where neither is enough.
+pub(crate) fn exact_degree(kernel: Kernel) -> Option<u32> {
+    match kernel.degree_along_ray()? {
+        0..=4 => Some(4),
+        5..=6 => Some(6),
+        _ => None,
+    }
+}

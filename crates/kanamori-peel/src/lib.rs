@@ -1,0 +1,67 @@
+//! Metaballs by rasterised depth peeling and Bézier clipping: Kanamori, Szego and Nishita 2008,
+//! "GPU-based Fast Ray Casting for a Large Number of Metaballs".
+//!
+//! # Theory
+//! Along a ray the set of balls that can contribute changes only where the ray enters or leaves a
+//! support ("effective sphere"). Depth peeling finds these points one by one from front to back,
+//! for all rays at once (section 4.1). Each ray keeps the list of balls it is inside, toggled by
+//! the index that each layer brings (section 4.2). In the interval between two points the field is
+//! one polynomial: of a single ball, whose surface is a sphere ("kernel sphere"), or a sum of
+//! several, which in Bernstein form is searched by Bézier clipping (section 3, appendix A). The
+//! first interval with a surface ends the ray.
+//!
+//! A frame is one encoder without read-back:
+//!
+//! | pass | what | section |
+//! | --- | --- | --- |
+//! | `place` | a rectangle for each ball, on the device | 5.1, appendix B |
+//! | `kernel spheres`, `seen` | depth of the kernel spheres; a flag for each ball seen before it | 5.2 |
+//! | `arrange` | lists of the balls to draw and of those around the eye | 5.2 |
+//! | `begin` | the lists that rays begin with | |
+//! | `peel` | per layer: the nearest point beyond the last one | 4.1, 5.1 |
+//! | `test` | per layer: the interval's search and the toggled list | 4.2, 4.3, 5.4 |
+//! | `account` | rays without an answer | |
+//!
+//! # Changes versus the paper
+//! *Coefficients* of appendix A hold with a = Q²/R², Q half the chord; the text has D/R. Every power
+//! kernel has the same form: v^α has one coefficient, (4a)^α over 2α choose α. Perlin's kernel is no
+//! polynomial along a ray and is refused.
+//!
+//! *Rectangles* of appendix B hold for spheres wholly in front of the eye's plane. Here tangents are
+//! turned directions, with cases for spheres that cross the plane, lie behind it or hold the eye
+//! (`rectangle.wgsl`).
+//!
+//! *The eye may be inside supports*: the paper's is outside. Rays begin at t = 0 with the balls
+//! around the eye on their lists, decided once per ball and frame.
+//!
+//! *Occlusion queries* become flags that fragments write, a prefix sum that keeps the balls' order,
+//! and an indirect draw. The kernel sphere's depth also ends rays: with balls behind it left out,
+//! nothing more would come.
+//!
+//! *A full stack* drops its furthest range and restores it from the whole curve when its turn comes,
+//! so no stack size loses a root. Ranges with several sign changes are split down to the square of
+//! the threshold before they count as a root, since a hull may cross the axis where the curve does
+//! not.
+//!
+//! *A ball whose end is lost* to a coincident point (section 7, figure 9a) stays on the list, as
+//! printed, but adds nothing outside its own chord: what is lost can make a surface late, never
+//! early.
+//!
+//! # Practice
+//! Right wherever no two points along the ray before the surface coincide in f32 and no more than K
+//! supports overlap there. With more than K the support itself is drawn, as section 7 says, and the
+//! hit is marked as a fallback. t errs by at most half the threshold times the interval's length.
+//!
+//! A frame that runs out of layers is incomplete and is drawn again with twice as many. 144 bytes a
+//! pixel with K = 14. At most 2²⁴ − 256 balls: indices are kept as f32.
+
+mod balls;
+mod layers;
+mod options;
+mod pipelines;
+mod renderer;
+#[cfg(test)]
+mod tests;
+
+pub use options::Options;
+pub use renderer::Renderer;

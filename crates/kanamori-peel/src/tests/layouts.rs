@@ -1,0 +1,40 @@
+//! Host structs against their WGSL twins.
+
+use metaball_shaders::{KernelModule, StructLayout, Variant, compose, host_layout, struct_layout};
+
+use crate::balls::{ArrangedHead, Peeling, Placed};
+
+/// A struct as a module of the method has it.
+fn twin(module: &str, name: &str) -> StructLayout {
+    let variant = Variant {
+        kernel: KernelModule::Wyvill,
+        strengths: true,
+        colors: true,
+        counting: true,
+        chosen: &["kanamori_peel/wyvill"],
+    };
+    let module = compose(module, &variant).unwrap_or_else(|error| panic!("{error}"));
+    struct_layout(&module, name).expect("the module uses the struct")
+}
+
+#[test]
+fn placed_balls() {
+    let host = host_layout!(Placed { low, high, around });
+    assert_eq!(twin("kanamori_peel/arrange", "Placed"), host);
+    assert_eq!(twin("kanamori_peel/peel", "Placed"), host);
+}
+
+#[test]
+fn constants_of_a_frame() {
+    let host = host_layout!(Peeling { depth_scale });
+    assert_eq!(twin("kanamori_peel/test", "Peeling"), host);
+    assert_eq!(twin("kanamori_peel/kernels", "Peeling"), host);
+}
+
+#[test]
+fn lists_of_balls() {
+    let twin = twin("kanamori_peel/test", "Arranged");
+    let host = host_layout!(ArrangedHead { drawn, around, around_balls });
+    assert_eq!(twin.members[..3], host.members);
+    assert_eq!(twin.members[3], ("balls".to_owned(), host.size));
+}

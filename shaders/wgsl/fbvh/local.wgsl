@@ -1,0 +1,86 @@
+// A ray seen from beside a leaf, so that distance from the eye costs no digits.
+//
+// The point o' = eye + base * direction beside the leaf is formed relative to the leaf's centre c as
+// (eye - c) + base * direction, two large numbers that nearly cancel. Every part of it is made
+// exact: c and the bulk of the eye lie on one coarse grid, so that their difference is exact;
+// direction and base are each cut into two numbers of twelve bits, so that their products are.
+// Nothing here depends on the order of operations beyond what is written: there is no compensation
+// to be optimised away.
+#define_import_path metaball::fbvh::local
+
+#import metaball::view::{view, Ray}
+
+struct Frame {
+    // c, world space.
+    center: vec3<f32>,
+    // o' - c.
+    origin: vec3<f32>,
+    // The two parts of the ray's t at o'.
+    base_high: f32,
+    base_low: f32,
+    // Where the ray enters and leaves the leaf's box, in t from o'; empty where it does not.
+    enter: f32,
+    leave: f32,
+    // Whether the ray starts in the box.
+    starts: bool,
+    // A ball's v = 1 - r^2/R^2, formed from `origin`, is right to margin + margin_length/R on the
+    // stretch in the box, if it is not below that there.
+    margin: f32,
+    margin_length: f32,
+}
+
+// The ray's t at a local t.
+fn at(frame: Frame, t: f32) -> f32 {
+    return frame.base_high + (frame.base_low + t);
+}
+
+const UNIT: f32 = 0x1p-23f;
+
+fn upper_bits(x: vec3<f32>) -> vec3<f32> {
+    return bitcast<vec3<f32>>(bitcast<vec3<u32>>(x) & vec3(0xfffff000u));
+}
+
+fn local_frame(ray: Ray, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>) -> Frame {
+    // A grid of 2^-21 to 2^-22 of the way from the eye to the leaf.
+    let middle = 0.5 * low + 0.5 * high;
+    let way = abs(middle - view.eye);
+    let reach = max(max(way.x, way.y), max(way.z, 1e-30));
+    let grid = bitcast<f32>(bitcast<u32>(reach) & 0x7f800000u) * 0x1p-21f;
+    let center = floor(middle / grid) * grid;
+    let eye_high = floor(view.eye / grid) * grid;
+    let eye_low = view.eye - eye_high;
+
+    let base = dot(center - view.eye, ray.direction);
+    let base_parts = upper_bits(vec3(base, 0.0, 0.0));
+    let base_high = base_parts.x;
+    let base_low = upper_bits(vec3(base - base_high, 0.0, 0.0)).x;
+    let direction_high = upper_bits(ray.direction);
+    let direction_low = ray.direction - direction_high;
+    let bulk = (eye_high - center) + direction_high * base_high;
+    let middling = direction_low * base_high + direction_high * base_low;
+    let rest = direction_low * base_low + eye_low;
+    let origin = (bulk + middling) + rest;
+
+    let to_low = ((low - center) - origin) * inverse;
+    let to_high = ((high - center) - origin) * inverse;
+    let near = min(to_low, to_high);
+    let far = max(to_low, to_high);
+    let enter = max(max(near.x, near.y), near.z);
+    let leave = min(min(far.x, far.y), far.z);
+    let start = -base_high - base_low;
+    // The stretch is widened by what rounding may have taken off it: four roundings of numbers no
+    // larger than these.
+    let extent = high - low;
+    let size = max(max(extent.x, extent.y), extent.z) + length(origin);
+    let widening = 8.0 * UNIT * size;
+    let last = min(leave + widening, (ray.t_max - base_high) - base_low);
+
+    // The longest local t of the stretch. What rounding does to v: numerics in certified.rs.
+    let longest = max(abs(enter), abs(leave)) + widening;
+    let misplaced = UNIT * (4.0 * length(origin) + 2.0 * length(middling));
+    return Frame(
+        center, origin, base_high, base_low,
+        max(enter - widening, start), last, enter - widening <= start && start <= last,
+        26.0 * UNIT, 12.0 * UNIT * longest + 2.1 * misplaced,
+    );
+}

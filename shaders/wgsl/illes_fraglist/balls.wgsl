@@ -1,0 +1,39 @@
+// Balls in the order of a frame, and a ball along a ray (Illés and Szécsi, section 3, figure 5).
+#define_import_path metaball::illes_fraglist::balls
+
+#import metaball::scene::{supports, Support}
+#import metaball::view::view
+
+// Balls by rising effective distance. A ball's place here is its rank: lists hold ranks, so that
+// putting a list in order is sorting numbers, and equal distances have an order, too.
+@group(2) @binding(0) var<storage, read> ball_of_rank: array<u32>;
+// Radius of each ball's core sphere, scene units; 0 where the ball alone never reaches the threshold.
+@group(2) @binding(1) var<storage, read> core_radii: array<f32>;
+
+// Where a ray is inside a sphere: [middle - half, middle + half] along the ray, scene units.
+struct Segment {
+    middle: f32,
+    // 0 where the ray does not meet the sphere.
+    half: f32,
+}
+
+// m_j and Q_j of the paper. Q² comes from the vector across the ray: the printed difference of
+// squares loses all digits a few hundred radii from the eye.
+fn segment_of(center: vec3<f32>, radius: f32, direction: vec3<f32>) -> Segment {
+    let offset = center - view.eye;
+    let rough = dot(offset, direction);
+    // What rounding left of the offset along the ray, and what the direction lacks to unit length,
+    // shows in the small vector that remains.
+    let middle = rough + dot(offset - rough * direction, direction);
+    let across = offset - middle * direction;
+    return Segment(middle, sqrt(max(radius * radius - dot(across, across), 0.0)));
+}
+
+// No point of the ball's support is nearer to the eye: the key of the order.
+fn effective_distance(support: Support) -> f32 {
+    return length(support.center - view.eye) - support.radius;
+}
+
+fn support_of_rank(rank: u32) -> Support {
+    return supports[ball_of_rank[rank]];
+}

@@ -1,0 +1,44 @@
+// Puts each ball into the lists of all pixels whose rays meet its support before the core (section 5,
+// gathering). Drawn farthest first, so that lists come out nearest first where the device keeps the
+// order; order.wgsl sees to the rest.
+
+#import metaball::cover::covering_corner
+#import metaball::illes_fraglist::balls::{segment_of, support_of_rank}
+#import metaball::illes_fraglist::lists
+#import metaball::scene::scene
+#import metaball::status::{report_needed, report_unfinished}
+#import metaball::view::{pixel_at, rays}
+
+struct Corner {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) rank: u32,
+}
+
+@vertex
+fn bound_support(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Corner {
+    let rank = scene.balls - 1u - instance;
+    let support = support_of_rank(rank);
+    return Corner(covering_corner(support.center, support.radius, vertex), rank);
+}
+
+@fragment
+fn gather(corner: Corner) {
+    let position = vec2<u32>(corner.position.xy);
+    let pixel = pixel_at(position);
+    let ray = rays[pixel];
+    let support = support_of_rank(corner.rank);
+    let segment = segment_of(support.center, support.radius, ray.direction);
+    let limit = min(lists::core_distance_at(position), ray.t_max);
+    if segment.half == 0.0 || segment.middle + segment.half < 0.0
+        || segment.middle - segment.half > limit {
+        return;
+    }
+    let index = atomicAdd(&lists::pool.asked, 1u);
+    if index >= arrayLength(&lists::pool.nodes) {
+        report_unfinished();
+        report_needed(0u, index + 1u);
+        return;
+    }
+    let next = atomicExchange(&lists::heads[pixel], index + 1u);
+    lists::pool.nodes[index] = lists::Node(corner.rank, next);
+}

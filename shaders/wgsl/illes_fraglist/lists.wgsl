@@ -1,0 +1,51 @@
+// Each pixel's list of the balls that its ray meets: linked nodes in one pool (section 5, gathering).
+#define_import_path metaball::illes_fraglist::lists
+
+// A node of a list. Twin: Node of crates/illes-fraglist/src/canvas.rs.
+struct Node {
+    rank: u32,
+    // Place of the next node.
+    next: u32,
+}
+
+// Twin of its head: PoolHead of crates/illes-fraglist/src/canvas.rs; zeros when the frame begins.
+struct Pool {
+    // Nodes asked for, whether there was room or not.
+    asked: atomic<u32>,
+    // Pixels whose ray reached a core before a root: the core was taken for the hit.
+    core_hits: atomic<u32>,
+    nodes: array<Node>,
+}
+
+// Places count from 1, so that a cleared buffer is a picture of empty lists.
+const END: u32 = 0u;
+
+// Place of the first node of each pixel's list.
+@group(3) @binding(0) var<storage, read_write> heads: array<atomic<u32>>;
+@group(3) @binding(1) var<storage, read_write> pool: Pool;
+// Distance along each pixel's ray to the nearest core; NO_LIMIT where there is none.
+@group(3) @binding(2) var core_distance: texture_2d<f32>;
+
+fn head_of(pixel: u32) -> u32 {
+    return atomicLoad(&heads[pixel]);
+}
+
+fn rank_at(place: u32) -> u32 {
+    return pool.nodes[place - 1u].rank;
+}
+
+fn after(place: u32) -> u32 {
+    return pool.nodes[place - 1u].next;
+}
+
+fn link(pixel: u32, place: u32, next: u32) {
+    if place == END {
+        atomicStore(&heads[pixel], next);
+    } else {
+        pool.nodes[place - 1u].next = next;
+    }
+}
+
+fn core_distance_at(position: vec2<u32>) -> f32 {
+    return textureLoad(core_distance, position, 0).x;
+}

@@ -1,0 +1,65 @@
+// The separators that a ray has yet to pass: ends and midpoints of effective intervals, ordered by
+// distance, in a local array of fixed size (section 6). The nearest stands last, so that taking it
+// is counting down.
+#define_import_path metaball::illes_fraglist::records
+
+#import metaball::illes_fraglist::budget
+
+// What a separator is to its ball.
+const ENTER: u32 = 0u;
+const MIDDLE: u32 = 1u;
+const LEAVE: u32 = 2u;
+
+// Room of the array as compiled; WGSL has no private arrays of overridable size.
+const MOST: u32 = 96u;
+// Records that may be in it, from 3 to MOST.
+@id(49) override room: u32 = MOST;
+
+struct Record {
+    // Distance along the ray, scene units.
+    at: f32,
+    // Four times the ball's rank, plus the kind.
+    label: u32,
+}
+
+var<private> records: array<Record, MOST>;
+var<private> count: u32;
+
+fn rank_of(record: Record) -> u32 {
+    return record.label >> 2u;
+}
+
+fn kind_of(record: Record) -> u32 {
+    return record.label & 3u;
+}
+
+fn has_room() -> bool {
+    return count + 3u <= room;
+}
+
+fn nearest() -> f32 {
+    return records[count - 1u].at;
+}
+
+fn take() -> Record {
+    count--;
+    return records[count];
+}
+
+// Inserts the separators of a ball from the kind `first` on, at rising distances. What is nearer is
+// moved once, by as many places as are still to be filled behind it.
+fn insert(rank: u32, at: vec3<f32>, first: u32) {
+    var gap = 3u - first;
+    var unmoved = count;
+    count += gap;
+    for (var kind = first; kind <= LEAVE; kind++) {
+        while unmoved > 0u && records[unmoved - 1u].at <= at[kind] {
+            unmoved--;
+            records[unmoved + gap] = records[unmoved];
+            budget::spend(1u);
+        }
+        gap--;
+        records[unmoved + gap] = Record(at[kind], 4u * rank + kind);
+    }
+    budget::spend(3u);
+}

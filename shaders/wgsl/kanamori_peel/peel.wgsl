@@ -1,0 +1,58 @@
+// One layer of depth peeling (section 4.1): of all supports, the nearest point beyond the last one
+// at which the ray enters or leaves.
+
+#import metaball::kanamori_peel::arranged::{arranged, placed}
+#import metaball::kanamori_peel::chord::chord_of
+#import metaball::kanamori_peel::frame::to_depth
+#import metaball::kanamori_peel::rectangle::corner_of
+#import metaball::scene::supports
+#import metaball::view::{pixel_at, rays, view}
+
+// Nothing lies nearer to an eye outside a support than this.
+const NEAREST: f32 = 1e-30;
+
+// The active balls; t of the last point is the first number of the first layer.
+@group(3) @binding(0) var lists: texture_2d_array<f32>;
+
+struct Corner {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) to_center: vec3<f32>,
+    @location(1) @interpolate(flat) radius: f32,
+    @location(2) @interpolate(flat) ball: u32,
+    @location(3) @interpolate(flat) around: u32,
+}
+
+struct Point {
+    // t and the ball's index.
+    @location(0) point: vec2<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+@vertex
+fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index: u32) -> Corner {
+    let ball = arranged.balls[index];
+    let support = supports[ball];
+    let to_center = support.center - view.eye;
+    let here = placed[ball];
+    return Corner(corner_of(here, vertex), to_center, support.radius, ball, here.around);
+}
+
+// Section 5.1: only the nearer of the two faces beyond the last point. A ball that the ray only
+// touches has no chord and does not come up at all.
+@fragment
+fn next_point(corner: Corner) -> Point {
+    let position = vec2<u32>(corner.position.xy);
+    let last = textureLoad(lists, position, 0, 0).x;
+    let ray = rays[pixel_at(position)];
+    let chord = chord_of(corner.to_center, corner.radius, ray.direction);
+    let half = sqrt(max(chord.half_squared, 0.0));
+    // Which side of a support the eye is on is decided once for all rays; rounding must not undo it.
+    let is_around = corner.around != 0u;
+    let enter = max(chord.middle - half, NEAREST);
+    let leave = select(chord.middle + half, max(chord.middle + half, NEAREST), is_around);
+    let t = select(leave, enter, enter > last && !is_around);
+    if chord.half_squared <= 0.0 && !is_around || enter >= leave && !is_around || t <= last {
+        discard;
+    }
+    return Point(vec2(t, f32(corner.ball)), to_depth(t));
+}

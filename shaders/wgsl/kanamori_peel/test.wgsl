@@ -1,0 +1,141 @@
+// Passes over the picture: the lists that rays begin with, the isosurface test of a layer's interval
+// with the update of the lists (sections 4.2 and 4.3), and the count of rays without an answer.
+
+#import metaball::hit
+#import metaball::kanamori_peel::list
+#import metaball::kanamori_peel::arranged::{arranged, MOST_ACTIVE}
+#import metaball::kanamori_peel::frame::from_depth
+#import metaball::status::report_unfinished
+#import metaball::view::{in_picture, NO_LIMIT, pixel_at, Ray, rays}
+#import metaball::work::{count_layers, write_work}
+
+// K: the longest list, at most four times the number of targets less two.
+@id(35) override capacity: u32 = 14u;
+
+// The next layer's two indirect draws: four numbers each, the second is the number of instances.
+@group(2) @binding(5) var<storage, read_write> draws: array<atomic<u32>, 8>;
+
+// The lists before this layer, the layer's points (t and ball; t = 0 where there is none), and the
+// nearest kernel spheres.
+@group(3) @binding(0) var lists: texture_2d_array<f32>;
+@group(3) @binding(1) var points: texture_2d<f32>;
+@group(3) @binding(2) var kernel_depth: texture_depth_2d;
+
+// A list as the targets keep it, in order: t of the last point, the number of balls, the balls. t is
+// NO_LIMIT once the ray has its answer. What a pipeline has no target for goes nowhere.
+struct Lists {
+    @location(0) first: vec4<f32>,
+    @location(1) second: vec4<f32>,
+    @location(2) third: vec4<f32>,
+    @location(3) fourth: vec4<f32>,
+    @location(4) fifth: vec4<f32>,
+    @location(5) sixth: vec4<f32>,
+    @location(6) seventh: vec4<f32>,
+    @location(7) eighth: vec4<f32>,
+}
+
+@vertex
+fn cover_picture(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4<f32> {
+    let corner = vec2(f32(vertex & 1u), f32(vertex >> 1u));
+    return vec4(2.0 * corner - 1.0, 0.5, 1.0);
+}
+
+// The paper's eye is outside all supports. Here a ray begins with the balls around the eye.
+@fragment
+fn begin(@builtin(position) at: vec4<f32>) -> Lists {
+    let pixel = pixel_at(vec2<u32>(at.xy));
+    list::listed_count = min(arranged.around, capacity);
+    for (var k = 0u; k < list::listed_count; k++) {
+        list::listed[k] = arranged.around_balls[k];
+    }
+    if arranged.around > capacity {
+        list::write_support(pixel, rays[pixel], 0.0, list::listed[0]);
+        return stored(NO_LIMIT);
+    }
+    return stored(0.0);
+}
+
+@fragment
+fn test_layer(@builtin(position) at: vec4<f32>) -> Lists {
+    let position = vec2<u32>(at.xy);
+    let last = restore(position);
+    if last == NO_LIMIT {
+        return stored(NO_LIMIT);
+    }
+    count_layers(1u);
+    let pixel = pixel_at(position);
+    let next = test_interval(position, pixel, rays[pixel], last);
+    write_work(pixel);
+    if next != NO_LIMIT {
+        atomicStore(&draws[1], arranged.drawn);
+        atomicStore(&draws[5], 1u);
+    }
+    return stored(next);
+}
+
+// Searches the interval from the last point to the layer's. Returns the latter, or NO_LIMIT when the
+// ray has its answer.
+fn test_interval(position: vec2<u32>, pixel: u32, ray: Ray, last: f32) -> f32 {
+    let point = textureLoad(points, position, 0).xy;
+    let kernel = from_depth(textureLoad(kernel_depth, position, 0));
+    let next = select(NO_LIMIT, point.x, point.x > 0.0);
+    let end = max(min(min(next, kernel), ray.t_max), last);
+    var t = list::search(ray, last, end);
+    if t == list::SEARCH_LOST {
+        hit::write_hit(pixel, last, -ray.direction, hit::UNDECIDED);
+        return NO_LIMIT;
+    }
+    // Nothing beyond a kernel sphere comes before the surface: it is a hit by itself.
+    if t == list::NOTHING_FOUND && kernel < NO_LIMIT && kernel <= min(next, ray.t_max) {
+        t = kernel;
+    }
+    if t != list::NOTHING_FOUND {
+        list::write_surface(pixel, ray, t);
+        return NO_LIMIT;
+    }
+    if next >= ray.t_max {
+        hit::write_miss(pixel);
+        return NO_LIMIT;
+    }
+    let ball = u32(point.y);
+    if !list::toggle(ball, capacity) {
+        list::write_support(pixel, ray, next, ball);
+        return NO_LIMIT;
+    }
+    return next;
+}
+
+// Rays that no layer answered.
+@compute @workgroup_size(8, 8)
+fn account(@builtin(global_invocation_id) id: vec3<u32>) {
+    if in_picture(id.xy) && hit::hits[pixel_at(id.xy)].status == hit::NOTHING {
+        report_unfinished();
+    }
+}
+
+// Takes up a ray's list; returns the t of its last point.
+fn restore(position: vec2<u32>) -> f32 {
+    let head = textureLoad(lists, position, 0, 0);
+    list::listed_count = u32(head.y);
+    for (var k = 0u; k < list::listed_count; k++) {
+        let part = textureLoad(lists, position, (k + 2u) / 4u, 0);
+        list::listed[k] = u32(part[(k + 2u) % 4u]);
+    }
+    return head.x;
+}
+
+fn stored(t: f32) -> Lists {
+    return Lists(
+        vec4(t, f32(list::listed_count), ball_at(0u), ball_at(1u)),
+        four_from(2u), four_from(6u), four_from(10u), four_from(14u), four_from(18u),
+        four_from(22u), four_from(26u),
+    );
+}
+
+fn four_from(k: u32) -> vec4<f32> {
+    return vec4(ball_at(k), ball_at(k + 1u), ball_at(k + 2u), ball_at(k + 3u));
+}
+
+fn ball_at(k: u32) -> f32 {
+    return select(0.0, f32(list::listed[k]), k < list::listed_count);
+}

@@ -1,0 +1,34 @@
+//! Scenes that a method refuses, by its own paper: the only list of them.
+
+use metaball_core::{Kernel, Scene};
+
+/// Why a method refuses a scene.
+#[derive(Debug)]
+pub struct Refusal {
+    /// The method.
+    pub method: &'static str,
+    /// The kernels of the scenes that it refuses.
+    pub refuses: fn(Kernel) -> bool,
+    /// What its error must say.
+    pub reason: &'static str,
+}
+
+const REFUSALS: &[Refusal] = &[
+    Refusal {
+        method: "kanamori",
+        refuses: |kernel| kernel == Kernel::Perlin,
+        reason: "needed a kernel that is a polynomial along a ray",
+    },
+    Refusal {
+        method: "illes-exact",
+        refuses: |kernel| kernel.degree_along_ray().is_none_or(|degree| degree > 6),
+        reason: "needed a kernel that is a polynomial of degree six or less along a ray",
+    },
+];
+
+/// The refusal that is expected of a method for a scene.
+pub fn refusal_of(method: &str, scene: &Scene) -> Option<&'static Refusal> {
+    REFUSALS
+        .iter()
+        .find(|refusal| refusal.method == method && (refusal.refuses)(scene.kernel()))
+}
