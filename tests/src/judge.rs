@@ -52,6 +52,11 @@ impl<'a> Exam<'a> {
         Self { scene, oracle, rays, truths: oracle.first_hits(rays) }
     }
 
+    /// The rays, row by row from the top left.
+    pub fn rays(&self) -> &[Ray] {
+        self.rays
+    }
+
     /// The truth about each ray.
     pub fn truths(&self) -> &[Truth] {
         &self.truths
@@ -128,7 +133,9 @@ impl<'a> Exam<'a> {
             return Ok(());
         }
         if hit.verdict == Verdict::Undecided || hit.fallback {
-            return Err(format!("needed an answer of the method's own to {truth:?}, found {hit:?}"));
+            return Err(format!(
+                "needed an answer of the method's own to {truth:?}, found {hit:?}"
+            ));
         }
         if let Some(field) = terms.promise.stand_in(self.scene, ray) {
             return self.judge_stand_in(ray, (truth, hit), terms, &field, findings);

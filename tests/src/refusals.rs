@@ -28,7 +28,5 @@ const REFUSALS: &[Refusal] = &[
 
 /// The refusal that is expected of a method for a scene.
 pub fn refusal_of(method: &str, scene: &Scene) -> Option<&'static Refusal> {
-    REFUSALS
-        .iter()
-        .find(|refusal| refusal.method == method && (refusal.refuses)(scene.kernel()))
+    REFUSALS.iter().find(|refusal| refusal.method == method && (refusal.refuses)(scene.kernel()))
 }

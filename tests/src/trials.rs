@@ -4,10 +4,11 @@ mod agreement;
 mod canaries;
 mod capacity;
 mod frames;
+mod gallery;
 
 use bench_scenes::{BenchScene, Overrides};
 use libtest_mimic::{Failed, Trial};
-use metaball_core::gpu::{FrameReport, Gpu, IsoRenderer, Targets, render};
+use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
 use metaball_core::{Hit, Ray, Scene, View};
 
 use crate::machine;
@@ -63,7 +64,6 @@ fn view_of(scene: &BenchScene) -> Result<View, Failed> {
 struct Picture {
     rays: Vec<Ray>,
     hits: Vec<Hit>,
-    report: FrameReport,
 }
 
 /// Builds a scene and draws one frame of it.
@@ -76,6 +76,6 @@ fn draw(
     renderer.build(gpu, scene)?;
     let has_colors = scene.colors().is_some();
     let targets = Targets::new(gpu, view.width(), view.height(), has_colors, false)?;
-    let report = render(gpu, renderer, &targets, view)?;
-    Ok(Picture { rays: targets.read_rays(gpu, view)?, hits: targets.read_hits(gpu)?, report })
+    render(gpu, renderer, &targets, view)?;
+    Ok(Picture { rays: targets.read_rays(gpu, view)?, hits: targets.read_hits(gpu)? })
 }

@@ -4,10 +4,10 @@ use harness::methods::METHODS;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Scene;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
-use metaball_core::reference::Oracle;
 
-use super::{draw, load, on_gpu, renderer, scenes, view_of};
-use crate::judge::{Exam, Findings, Stop, Terms};
+use super::gallery::{picture, room};
+use super::{on_gpu, renderer, scenes};
+use crate::judge::{Findings, Stop, Terms};
 use crate::promise::{Promise, promise_of};
 use crate::refusals::{Refusal, refusal_of};
 
@@ -51,16 +51,12 @@ pub(super) fn pass(findings: &Findings) -> Result<(), Failed> {
     Err(format!("{} violations\n  {shown}", findings.violations.len()).into())
 }
 
-fn with_oracle(gpu: &Gpu, scene: &str, method: &str) -> Result<(), Failed> {
-    let scene = load(scene)?;
-    let mut renderer = renderer(method)?;
-    if let Some(refusal) = refusal_of(method, &scene.scene) {
-        return refuses(gpu, renderer.as_mut(), &scene.scene, refusal);
+fn with_oracle(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(), Failed> {
+    let room = room(gpu, scene)?;
+    if let Some(refusal) = refusal_of(method, &room.scene.scene) {
+        return refuses(gpu, renderer(method)?.as_mut(), &room.scene.scene, refusal);
     }
-    let picture = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
-    let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &picture.rays);
-    pass(&exam.judge(&picture.hits, &terms_of(method)))
+    pass(&room.exam.judge(&picture(gpu, scene, method)?, &terms_of(method)))
 }
 
 fn refuses(
@@ -75,19 +71,17 @@ fn refuses(
     }
 }
 
-fn with_each_other(gpu: &Gpu, scene: &str, ours: &str, theirs: &str) -> Result<(), Failed> {
-    let scene = load(scene)?;
-    if [ours, theirs].iter().any(|method| refusal_of(method, &scene.scene).is_some()) {
+fn with_each_other(
+    gpu: &Gpu,
+    scene: &'static str,
+    ours: &'static str,
+    theirs: &'static str,
+) -> Result<(), Failed> {
+    let room = room(gpu, scene)?;
+    if [ours, theirs].iter().any(|method| refusal_of(method, &room.scene.scene).is_some()) {
         // There is one picture at most; that the other is refused is tested with the oracle.
         return Ok(());
     }
-    let view = view_of(&scene)?;
-    let drawn = |method| {
-        let mut renderer = renderer(method)?;
-        draw(gpu, renderer.as_mut(), &scene.scene, &view)
-    };
-    let (first, second) = (drawn(ours)?, drawn(theirs)?);
-    let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &first.rays);
-    pass(&exam.compare((&first.hits, promise_of(ours)), (&second.hits, promise_of(theirs))))
+    let (first, second) = (picture(gpu, scene, ours)?, picture(gpu, scene, theirs)?);
+    pass(&room.exam.compare((&first, promise_of(ours)), (&second, promise_of(theirs))))
 }

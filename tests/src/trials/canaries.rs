@@ -2,12 +2,11 @@
 
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
-use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Scene};
 
 use super::agreement::{pass, terms_of};
-use super::{SIZE, draw, load, on_gpu, renderer, view_of};
-use crate::judge::Exam;
+use super::gallery::{picture, room};
+use super::{SIZE, draw, on_gpu, renderer};
 use crate::promise::promise_of;
 
 /// The method whose picture is spoilt, and a scene with enough in it to spoil.
@@ -47,14 +46,11 @@ pub(super) fn trials() -> Vec<Trial> {
 }
 
 fn rejects_spoilt(gpu: &Gpu, spoil: Spoil) -> Result<(), Failed> {
-    let scene = load(SCENE)?;
-    let mut renderer = renderer(METHOD)?;
-    let mut picture = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
-    let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &picture.rays);
-    pass(&exam.judge(&picture.hits, &terms_of(METHOD)))?;
-    spoil(&mut picture.hits);
-    match pass(&exam.judge(&picture.hits, &terms_of(METHOD))) {
+    let room = room(gpu, SCENE)?;
+    let mut hits = picture(gpu, SCENE, METHOD)?.to_vec();
+    pass(&room.exam.judge(&hits, &terms_of(METHOD)))?;
+    spoil(&mut hits);
+    match pass(&room.exam.judge(&hits, &terms_of(METHOD))) {
         Ok(()) => Err("the spoilt picture passed".into()),
         Err(_) => Ok(()),
     }
@@ -62,7 +58,8 @@ fn rejects_spoilt(gpu: &Gpu, spoil: Spoil) -> Result<(), Failed> {
 
 /// A structure that lost the ball most in view.
 fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
-    let scene = load(SCENE)?;
+    let room = room(gpu, SCENE)?;
+    let scene = room.scene;
     let eye = scene.camera.eye();
     let nearest = |ball: &metaball_core::Metaball| ball.center.distance(eye) - ball.radius;
     let mut balls: Vec<_> = scene.scene.balls().collect();
@@ -71,26 +68,21 @@ fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
     let without = Scene::new(balls, scene.scene.kernel(), scene.scene.threshold())?;
 
     let mut renderer = renderer(METHOD)?;
-    let picture = draw(gpu, renderer.as_mut(), &without, &view_of(&scene)?)?;
-    let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &picture.rays);
-    match pass(&exam.judge(&picture.hits, &terms_of(METHOD))) {
+    let picture = draw(gpu, renderer.as_mut(), &without, &room.view)?;
+    match pass(&room.exam.judge(&picture.hits, &terms_of(METHOD))) {
         Ok(()) => Err("the picture without a ball passed".into()),
         Err(_) => Ok(()),
     }
 }
 
 fn rejects_between_methods(gpu: &Gpu) -> Result<(), Failed> {
-    let scene = load(SCENE)?;
-    let mut renderer = renderer(METHOD)?;
-    let picture = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
-    let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &picture.rays);
+    let room = room(gpu, SCENE)?;
+    let hits = picture(gpu, SCENE, METHOD)?;
     let promise = promise_of(METHOD);
-    pass(&exam.compare((&picture.hits, promise), (&picture.hits, promise)))?;
-    let mut shifted = picture.hits.clone();
+    pass(&room.exam.compare((&hits, promise), (&hits, promise)))?;
+    let mut shifted = hits.to_vec();
     shifted.rotate_right(1);
-    match pass(&exam.compare((&picture.hits, promise), (&shifted, promise))) {
+    match pass(&room.exam.compare((&hits, promise), (&shifted, promise))) {
         Ok(()) => Err("the shifted picture passed".into()),
         Err(_) => Ok(()),
     }
