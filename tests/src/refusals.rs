@@ -14,17 +14,27 @@ pub struct Refusal {
 }
 
 const REFUSALS: &[Refusal] = &[
+    no_polynomial("kanamori"),
+    no_polynomial("kanamori-robust"),
+    above_degree_six("illes-exact"),
+    above_degree_six("illes-robust"),
+];
+
+const fn no_polynomial(method: &'static str) -> Refusal {
     Refusal {
-        method: "kanamori",
-        refuses: |kernel| kernel == Kernel::Perlin,
+        method,
+        refuses: |kernel| kernel.degree_along_ray().is_none(),
         reason: "needed a kernel that is a polynomial along a ray",
-    },
+    }
+}
+
+const fn above_degree_six(method: &'static str) -> Refusal {
     Refusal {
-        method: "illes-exact",
+        method,
         refuses: |kernel| kernel.degree_along_ray().is_none_or(|degree| degree > 6),
         reason: "needed a kernel that is a polynomial of degree six or less along a ray",
-    },
-];
+    }
+}
 
 /// The refusal that is expected of a method for a scene.
 pub fn refusal_of(method: &str, scene: &Scene) -> Option<&'static Refusal> {

@@ -30,7 +30,7 @@ struct Chord {
 impl StandIn {
     /// Piecewise cubics; `None` where the piece is the field itself.
     pub fn new(piece: Piece, scene: &Scene, ray: &Ray) -> Option<Self> {
-        (piece != Piece::Exact).then(|| Self {
+        (!piece.is_exact()).then(|| Self {
             chords: chords(scene, ray),
             deviation: cubic_deviation(scene.kernel()),
             is_absolute: piece == Piece::AbsoluteCubic,

@@ -5,6 +5,7 @@ mod canaries;
 mod capacity;
 mod frames;
 mod gallery;
+mod peeling;
 
 use bench_scenes::{BenchScene, Overrides};
 use libtest_mimic::{Failed, Trial};
@@ -22,6 +23,7 @@ pub fn all() -> Vec<Trial> {
     trials.extend(canaries::trials());
     trials.extend(capacity::trials());
     trials.extend(frames::trials());
+    trials.extend(peeling::trials());
     trials
 }
 

@@ -141,7 +141,7 @@ impl Options {
     /// The certified tree.
     pub const fn certified() -> Self {
         Self {
-            structure: Structure::Certified(Classes { leaf_size: 12, smallest_side: 0.25 }),
+            structure: Structure::Certified(Classes { leaf_size: 16, smallest_side: 0.5 }),
             ..Self::modified_bvh()
         }
     }

@@ -140,7 +140,13 @@ impl<'a> Arena<'a> {
         for (place, &method) in self.rules.methods.iter().enumerate() {
             self.stage(method.name);
             let scene = &self.bench.scene;
-            match Contender::prepare(self.gpu, method, scene, &self.targets, &self.view) {
+            match Contender::prepare(
+                self.gpu,
+                (method.make)(false),
+                scene,
+                &self.targets,
+                &self.view,
+            ) {
                 Ok(contender) => {
                     drawings.push(Drawing { place, contender, shaded: self.shade()? });
                 }
@@ -176,11 +182,12 @@ impl<'a> Arena<'a> {
         for (((place, shaded), contender), timing) in
             places.into_iter().zip(shaded).zip(contenders).zip(timings)
         {
-            let method = contender.method;
+            let method = self.rules.methods[place];
             let accuracy = score(&reference, &contender.hits)?;
             let heat = encode_png(&heat_map(&reference, &contender.hits))?;
             let outcome = timing.and_then(|timing| {
-                let work = count_work(self.gpu, method, &self.bench.scene, &self.view)?;
+                let work =
+                    count_work(self.gpu, (method.make)(true), &self.bench.scene, &self.view)?;
                 Ok(measured(&contender, timing, accuracy, work))
             });
             if outcome.is_ok() {

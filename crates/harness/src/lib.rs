@@ -4,11 +4,13 @@
 //! [`contest`] is the heart: it takes a scene through all [`methods`], asks the oracle about the rays
 //! that the shaders used ([`mod@reference`]), and yields a [`record`] for each. [`score`] holds the one
 //! set of definitions of what is wrong, [`measure`] those of what is fast. [`compare`] and [`render`]
-//! are the commands.
+//! are the commands. [`tables`] holds the tables of papers.
+//! [`cpu`] and [`shade`] draw where there is no adapter.
 
 pub mod compare;
 pub mod console;
 pub mod contest;
+pub mod cpu;
 pub mod heat;
 pub mod hits_exr;
 pub mod html;
@@ -24,5 +26,7 @@ pub mod reference;
 pub mod render;
 pub mod report;
 pub mod score;
+pub mod shade;
 pub mod stats;
 pub mod subset;
+pub mod tables;

@@ -12,7 +12,9 @@ use harness::contest::Rules;
 use harness::measure::Sampling;
 use harness::methods::{METHODS, Method, find};
 use harness::picture::picture_named;
-use harness::render::{Order, render};
+use harness::render::{Device, Order, render};
+use harness::tables::gourmel;
+use harness::tables::gourmel::plan::Extent;
 use harness::{console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
@@ -66,13 +68,40 @@ enum Command {
         /// What the picture shows: phong, normal, depth, color, spheres, or work:COUNTER.
         #[arg(long, value_name = "WHAT", default_value = "phong", value_parser = picture_named)]
         picture: Picture,
+        /// Trace on the CPU, without a graphics adapter: what happens anyway where there is none.
+        #[arg(long, conflicts_with_all = ["adapter", "software"])]
+        cpu: bool,
         #[command(flatten)]
         common: Common,
+    },
+    /// Measure a paper's tables anew, and set the printed numbers beside.
+    Tables {
+        #[command(subcommand)]
+        paper: Paper,
     },
     /// List the known scenes and the generators.
     Scenes,
     /// List the methods.
     Methods,
+}
+
+/// Papers whose tables are measured.
+#[derive(Debug, Subcommand)]
+enum Paper {
+    /// Gourmel et al. 2010: tables 1, 3, 4 and 5, both heuristics, and plots of frame time.
+    Gourmel {
+        /// Small scenes, small pictures: about a minute, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Pixels across and down; 640x480 when left out, 320x240 on a software adapter.
+        #[arg(long, value_name = "WxH")]
+        size: Option<Size>,
+        /// Folder for gourmel.html and gourmel.json.
+        #[arg(long, value_name = "DIR", default_value = "out/tables")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
+    },
 }
 
 /// What every drawing command takes.
@@ -81,12 +110,8 @@ struct Common {
     /// Pixels across and down.
     #[arg(long, value_name = "WxH", default_value = "640x480")]
     size: Size,
-    /// Draw with the adapter that has this in its name.
-    #[arg(long, value_name = "NAME", conflicts_with = "software")]
-    adapter: Option<String>,
-    /// Draw with an adapter that computes on the CPU.
-    #[arg(long)]
-    software: bool,
+    #[command(flatten)]
+    device: AdapterArgs,
     /// Kernel in place of the scene's own: power, wyvill or perlin.
     #[arg(long, value_name = "NAME", value_parser = kernel)]
     kernel: Option<Kernel>,
@@ -96,6 +121,27 @@ struct Common {
     /// Threshold in place of the scene's own.
     #[arg(long, value_name = "T")]
     threshold: Option<f32>,
+}
+
+/// Which adapter draws.
+#[derive(Debug, Args)]
+struct AdapterArgs {
+    /// Draw with the adapter that has this in its name.
+    #[arg(long, value_name = "NAME", conflicts_with = "software")]
+    adapter: Option<String>,
+    /// Draw with an adapter that computes on the CPU.
+    #[arg(long)]
+    software: bool,
+}
+
+impl AdapterArgs {
+    fn choice(&self) -> AdapterChoice {
+        match &self.adapter {
+            Some(name) => AdapterChoice::Named(name.clone()),
+            None if self.software => AdapterChoice::Software,
+            None => AdapterChoice::Environment,
+        }
+    }
 }
 
 /// A picture's size in pixels.
@@ -119,11 +165,7 @@ impl Common {
     }
 
     fn adapter(&self) -> AdapterChoice {
-        match &self.adapter {
-            Some(name) => AdapterChoice::Named(name.clone()),
-            None if self.software => AdapterChoice::Software,
-            None => AdapterChoice::Environment,
-        }
+        self.device.choice()
     }
 
     fn overrides(&self) -> Overrides {
@@ -165,10 +207,15 @@ fn run(command: Command) -> anyhow::Result<()> {
             let (overrides, adapter) = (common.overrides(), common.adapter());
             compare(&Comparison { scenes, overrides, rules, adapter, out })
         }
-        Command::Render { scene, method, out, hits, picture, common } => {
-            let (overrides, adapter) = (common.overrides(), common.adapter());
-            let size = common.size();
-            render(&Order { scene, overrides, method, size, picture, adapter, out, hits })
+        Command::Render { scene, method, out, hits, picture, cpu, common } => {
+            let (overrides, size) = (common.overrides(), common.size());
+            let device = if cpu { Device::Cpu } else { Device::Adapter(common.adapter()) };
+            render(&Order { scene, overrides, method, size, picture, device, out, hits })
+        }
+        Command::Tables { paper: Paper::Gourmel { quick, size, out, device } } => {
+            let extent = if quick { Extent::Quick } else { Extent::Whole };
+            let size = size.map(|Size(width, height)| (width, height));
+            gourmel::tables(&gourmel::Order { extent, size, adapter: device.choice(), out })
         }
         Command::Scenes => {
             list::scenes();
@@ -238,5 +285,7 @@ mod tests {
         assert!(message("metaball render molecule --picture nosuch").contains("work:"));
         assert!(message("metaball compare --kernel gauss").contains("wyvill or perlin"));
         assert!(parse("metaball render").is_err());
+        assert!(parse("metaball render molecule --cpu --software").is_err());
+        assert!(parse("metaball tables").is_err());
     }
 }

@@ -7,15 +7,12 @@ use std::time::Duration;
 use metaball_core::gpu::{self, BuildReport, Gpu, IsoRenderer, RenderError, Targets};
 use metaball_core::{Aabb, Camera, Hit, Scene, View, ViewError};
 
-use crate::methods::Method;
 use crate::record::{Samples, WorkPerRay};
 use crate::stats::median;
 
-/// A method that has built its structure for a scene and drawn it once: warm, and with all the room
+/// A renderer that has built its structure for a scene and drawn it once: warm, and with all the room
 /// that its first frame needed.
 pub struct Contender {
-    /// Which method.
-    pub method: &'static Method,
     /// What building took.
     pub build: BuildReport,
     /// What it found in its first frame, row by row from the top left.
@@ -52,22 +49,21 @@ pub struct Timing {
 }
 
 impl Contender {
-    /// Builds for the scene and draws the view into the targets, without counting work.
+    /// Builds for the scene and draws the view into the targets, which have no work counters.
     ///
     /// # Errors
-    /// When the method cannot do the scene, or its frame stays incomplete.
+    /// When the renderer cannot do the scene, or its frame stays incomplete.
     pub fn prepare(
         gpu: &Gpu,
-        method: &'static Method,
+        mut renderer: Box<dyn IsoRenderer>,
         scene: &Scene,
         targets: &Targets,
         view: &View,
     ) -> Result<Self, RenderError> {
-        let mut renderer = (method.make)(false);
         let build = renderer.build(gpu, scene)?;
         gpu::render(gpu, renderer.as_mut(), targets, view)?;
         let hits = targets.read_hits(gpu)?;
-        Ok(Self { method, build, hits, renderer })
+        Ok(Self { build, hits, renderer })
     }
 }
 
@@ -100,17 +96,17 @@ pub fn time_all(
     frames.into_iter().map(|frames| frames.map(Frames::summary)).collect()
 }
 
-/// Draws one frame that counts its work, with a renderer of its own: counting slows a shader down.
+/// Draws one frame with a renderer that counts its work, one of its own: counting slows a shader
+/// down.
 ///
 /// # Errors
 /// As [`Contender::prepare`].
 pub fn count_work(
     gpu: &Gpu,
-    method: &Method,
+    mut renderer: Box<dyn IsoRenderer>,
     scene: &Scene,
     view: &View,
 ) -> Result<WorkPerRay, RenderError> {
-    let mut renderer = (method.make)(true);
     renderer.build(gpu, scene)?;
     let colors = scene.colors().is_some();
     let targets = Targets::new(gpu, view.width(), view.height(), colors, true)?;

@@ -2,7 +2,7 @@
 
 use fbvh::gpu::Renderer;
 use fbvh::{Options, TraceOptions};
-use illes_fraglist::Piece;
+use illes_fraglist::{Gather, Piece};
 use metaball_core::gpu::IsoRenderer;
 
 /// A method that can be compared.
@@ -58,6 +58,17 @@ pub const METHODS: &[Method] = &[
         },
     },
     Method {
+        name: "kanamori-robust",
+        title: "Depth peeling, distinct",
+        paper: "not published: points that coincide are told apart, lists are longer",
+        about: "As kanamori, but points with one distance are peeled by the index of their balls, \
+                and a list holds 29 balls.",
+        make: |counting| {
+            let options = kanamori_peel::Options::robust();
+            Box::new(kanamori_peel::Renderer::new("kanamori-robust", options, counting))
+        },
+    },
+    Method {
         name: "illes",
         title: "Fragment lists",
         paper: "Illés and Szécsi, Efficient GPU Fluid Visualization",
@@ -81,6 +92,25 @@ pub const METHODS: &[Method] = &[
                 cubic.",
         make: |counting| fragment_lists("illes-exact", Piece::Exact, counting),
     },
+    Method {
+        name: "illes-robust",
+        title: "Fragment lists, robust",
+        paper: "not published: exact polynomials, and no ray that too many balls overlap on is wrong",
+        about: "The same as with exact polynomials; a ray with more separators than its array holds \
+                is searched without it.",
+        make: |counting| fragment_lists("illes-robust", Piece::Robust, counting),
+    },
+    Method {
+        name: "illes-compute",
+        title: "Fragment lists, gathered in compute",
+        paper: "not published: the same cubics without a rasteriser",
+        about: "Balls are sorted into tiles of the picture, and tiles into the lists of pixels, by \
+                compute passes; the same cast.",
+        make: |counting| {
+            let options = illes_fraglist::Options { gather: Gather::Tiles, ..Default::default() };
+            Box::new(illes_fraglist::Renderer::new("illes-compute", options, counting))
+        },
+    },
 ];
 
 fn fragment_lists(name: &'static str, piece: Piece, counting: bool) -> Box<dyn IsoRenderer> {
@@ -90,6 +120,16 @@ fn fragment_lists(name: &'static str, piece: Piece, counting: bool) -> Box<dyn I
 
 fn bvh(name: &'static str, options: Options, counting: bool) -> Box<dyn IsoRenderer> {
     Box::new(Renderer::new(name, options, TraceOptions::default(), counting))
+}
+
+/// The tree that a method traces, for those that the CPU traces too.
+pub fn tree_options(method: &str) -> Option<Options> {
+    match method {
+        "bvh" => Some(Options::modified_bvh()),
+        "fbvh" => Some(Options::fitted()),
+        "fbvh-certified" => Some(Options::certified()),
+        _ => None,
+    }
 }
 
 /// The method of that name.
@@ -109,6 +149,8 @@ mod tests {
                 assert_eq!((method.make)(counting).name(), method.name);
             }
         }
+        let traced_on_cpu = METHODS.iter().filter(|method| tree_options(method.name).is_some());
+        assert_eq!(traced_on_cpu.count(), 3);
         assert!(find("fbvh").is_some() && find("no such method").is_none());
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use crate::contest::{Contest, Pictures};
 use crate::heat::{AMBIGUOUS, ERROR_RANGE, MISS, NOT_COMPARED, SCALE, UNDECIDED, WRONG};
 use crate::html::{base64, escape, fill};
+use crate::machine::Machine;
 use crate::methods;
 use crate::numbers::{decimal, grouped, small};
 use crate::output::write_atomically;
@@ -29,6 +30,7 @@ fn page(records: &Records, contests: &[Contest], remarks: &[String]) -> String {
     let rows: String = contests.iter().map(table_rows).collect();
     let scenes: String = contests.iter().map(scene_section).collect();
     let parts = [
+        ("style", STYLE.to_owned()),
         ("facts", facts(records)),
         ("remarks", remark_paragraphs(remarks)),
         ("rows", rows),
@@ -37,32 +39,38 @@ fn page(records: &Records, contests: &[Contest], remarks: &[String]) -> String {
     fill(include_str!("report.html"), &parts)
 }
 
+/// The look of all pages.
+pub(crate) const STYLE: &str = include_str!("style.css");
+
 fn facts(records: &Records) -> String {
-    let machine = &records.machine;
+    let mut facts = provenance(&records.command, &records.commit, &records.machine);
+    if let Some(record) = records.records.first() {
+        let adapter = &record.adapter;
+        let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
+        facts += &fact("Adapter", &escape(&adapter));
+        facts += &fact("Picture", &format!("{} × {} pixels", record.width, record.height));
+    }
+    facts
+}
+
+/// Where the numbers of a page come from.
+pub(crate) fn provenance(command: &str, commit: &str, machine: &Machine) -> String {
     let memory = machine.memory_bytes.map_or_else(String::new, |bytes| {
         format!(", {:.0} GiB", bytes as f64 / f64::from(1 << 30))
     });
-    let mut facts = vec![
-        ("Command", format!("<code>{}</code>", escape(&records.command))),
-        ("Commit", format!("<code>{}</code>", escape(&records.commit))),
-        (
-            "Machine",
-            escape(&format!("{}, {} cores{memory}; {}", machine.cpu, machine.cores, machine.os)),
-        ),
-    ];
-    if let Some(record) = records.records.first() {
-        let adapter = &record.adapter;
-        facts.push((
-            "Adapter",
-            escape(&format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver)),
-        ));
-        facts.push(("Picture", format!("{} × {} pixels", record.width, record.height)));
-    }
-    let fact = |(term, text): &(&str, String)| format!("<dt>{term}</dt><dd>{text}</dd>\n");
-    facts.iter().map(fact).collect()
+    let machine = format!("{}, {} cores{memory}; {}", machine.cpu, machine.cores, machine.os);
+    fact("Command", &format!("<code>{}</code>", escape(command)))
+        + &fact("Commit", &format!("<code>{}</code>", escape(commit)))
+        + &fact("Machine", &escape(&machine))
 }
 
-fn remark_paragraphs(remarks: &[String]) -> String {
+/// A line of a list of facts; both parts are HTML.
+pub(crate) fn fact(term: &str, text: &str) -> String {
+    format!("<dt>{term}</dt><dd>{text}</dd>\n")
+}
+
+/// What a reader should know first.
+pub(crate) fn remark_paragraphs(remarks: &[String]) -> String {
     remarks.iter().map(|text| format!("<p class=\"remark\">{}</p>\n", escape(text))).collect()
 }
 
@@ -219,7 +227,6 @@ fn dash() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::Machine;
 
     #[test]
     fn a_page_needs_nothing_else_and_trusts_no_name() {

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError, Targets};
 
 use crate::pipelines::Layouts;
+use crate::tiles::TileRoom;
 
 /// A node of a list: WGSL's `Node` of `illes_fraglist/lists.wgsl`. The host only needs its size.
 #[repr(C)]
@@ -46,11 +47,22 @@ pub struct ListStats {
 pub(crate) const CORE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
+/// What a canvas has room for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Rooms {
+    /// List nodes.
+    pub(crate) nodes: u32,
+    /// Entries of all tiles; `None`: no tiles.
+    pub(crate) entries: Option<u32>,
+}
+
 /// Core depth, lists and progress of a picture of one size.
 pub(crate) struct Canvas {
     width: u32,
     height: u32,
-    nodes: u32,
+    rooms: Rooms,
+    /// Where lists are gathered by tiles.
+    pub(crate) tiles: Option<TileRoom>,
     pub(crate) core: wgpu::TextureView,
     pub(crate) depth: wgpu::TextureView,
     heads: wgpu::Buffer,
@@ -60,12 +72,12 @@ pub(crate) struct Canvas {
 }
 
 impl Canvas {
-    /// Room for a picture of the targets' size and so many list nodes.
+    /// Room for a picture of the targets' size.
     pub(crate) fn new(
         gpu: &Gpu,
         layouts: &Layouts,
         targets: &Targets,
-        nodes: u32,
+        rooms: Rooms,
     ) -> Result<Self, RenderError> {
         let (width, height) = (targets.width(), targets.height());
         let limit = gpu.device.limits().max_texture_dimension_2d;
@@ -75,15 +87,20 @@ impl Canvas {
         let none = wgpu::BufferUsages::empty();
         let pixels = u64::from(width) * u64::from(height);
         // An array without elements cannot be bound: there is always one node.
-        let nodes = nodes.max(1);
+        let nodes = rooms.nodes.max(1);
         let pool_bytes = size_of::<PoolHead>() as u64 + u64::from(nodes) * size_of::<Node>() as u64;
         let heads = gpu.storage("illes list heads", 4 * pixels, none)?;
         let pool = gpu.storage("illes list nodes", pool_bytes, none)?;
         let progress =
             gpu.storage("illes progress", pixels * size_of::<Progress>() as u64, none)?;
-        gpu.checked(|| {
-            let core = texture(gpu, "illes core distance", CORE_FORMAT, (width, height));
-            let depth = texture(gpu, "illes core depth", DEPTH_FORMAT, (width, height));
+        let writer = match rooms.entries {
+            Some(_) => wgpu::TextureUsages::STORAGE_BINDING,
+            None => wgpu::TextureUsages::empty(),
+        };
+        let (core, depth, bind_group) = gpu.checked(|| {
+            let core = texture(gpu, "illes core distance", CORE_FORMAT, writer, (width, height));
+            let none = wgpu::TextureUsages::empty();
+            let depth = texture(gpu, "illes core depth", DEPTH_FORMAT, none, (width, height));
             let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
             let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("illes lists"),
@@ -95,13 +112,18 @@ impl Canvas {
                     entry(3, progress.as_entire_binding()),
                 ],
             });
-            Self { width, height, nodes, core, depth, heads, pool, progress, bind_group }
-        })
+            (core, depth, bind_group)
+        })?;
+        let tiles = rooms
+            .entries
+            .map(|entries| TileRoom::new(gpu, layouts, entries, (&heads, &pool), &core))
+            .transpose()?;
+        Ok(Self { width, height, rooms, tiles, core, depth, heads, pool, progress, bind_group })
     }
 
-    /// Whether this is a canvas for such targets with at least so many nodes.
-    pub(crate) fn fits(&self, targets: &Targets, nodes: u32) -> bool {
-        (self.width, self.height) == (targets.width(), targets.height()) && self.nodes >= nodes
+    /// Whether this is a canvas for such targets with such rooms.
+    pub(crate) fn fits(&self, targets: &Targets, rooms: Rooms) -> bool {
+        (self.width, self.height) == (targets.width(), targets.height()) && self.rooms == rooms
     }
 
     /// Empties all lists: at the start of a frame.
@@ -111,10 +133,14 @@ impl Canvas {
         encoder.clear_buffer(&self.progress, 0, None);
     }
 
-    /// Bytes on the device: 24 a pixel, and the nodes.
+    /// Bytes on the device: 28 a pixel, the nodes, and what the tiles take.
     pub(crate) fn bytes(&self) -> u64 {
         let textures = 8 * u64::from(self.width) * u64::from(self.height);
-        self.heads.size() + self.pool.size() + self.progress.size() + textures
+        self.heads.size()
+            + self.pool.size()
+            + self.progress.size()
+            + textures
+            + self.tiles.as_ref().map_or(0, TileRoom::bytes)
     }
 
     /// What the last frame left in the head of the pool.
@@ -135,6 +161,7 @@ fn texture(
     gpu: &Gpu,
     label: &str,
     format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
     (width, height): (u32, u32),
 ) -> wgpu::TextureView {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -144,7 +171,9 @@ fn texture(
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | usage,
         view_formats: &[],
     });
     texture.create_view(&Default::default())
@@ -163,7 +192,7 @@ mod tests {
             strengths: false,
             colors: false,
             counting: false,
-            chosen: &["illes_fraglist/rebuilt"],
+            chosen: &["illes_fraglist/rebuilt", "illes_fraglist/crowd_printed"],
         };
         let module = compose("illes_fraglist/cast", &variant).expect("composes");
         assert_eq!(struct_layout(&module, "Node"), Some(host_layout!(Node { rank, next })));

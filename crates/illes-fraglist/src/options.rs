@@ -12,6 +12,19 @@ pub enum Piece {
     AbsoluteCubic,
     /// The field itself, of degree four or six.
     Exact,
+    /// The same; and where the local array has no room for a ray's separators, the rest of the ray is
+    /// searched without it, by bounds over stretches of the list. Not published.
+    Robust,
+}
+
+/// How balls get into the lists of pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Gather {
+    /// By rasterising a rectangle a ball, as published.
+    Raster,
+    /// In compute, by way of tiles of the picture. Not published: for graphics cards with little
+    /// raster hardware, where the published gathering would measure the chip.
+    Tiles,
 }
 
 /// Settings of a renderer.
@@ -19,6 +32,8 @@ pub enum Piece {
 pub struct Options {
     /// The polynomial between two separators.
     pub piece: Piece,
+    /// How the lists are gathered.
+    pub gather: Gather,
     /// Separators in a ray's local array, from 3 to [`MOST_ROOM`]; others are taken as the nearest
     /// of these. The paper has "surely less than 100".
     pub room: u32,
@@ -33,23 +48,30 @@ pub const MOST_ROOM: u32 = 96;
 impl Default for Options {
     /// The published method; 8 MB of nodes.
     fn default() -> Self {
-        Self { piece: Piece::Cubic, room: MOST_ROOM, first_nodes: 1 << 20 }
+        Self { piece: Piece::Cubic, gather: Gather::Raster, room: MOST_ROOM, first_nodes: 1 << 20 }
     }
 }
 
 impl Piece {
     /// Names of the WGSL modules to choose.
     pub(crate) fn modules(self) -> &'static [&'static str] {
+        const PRINTED: &str = "illes_fraglist/crowd_printed";
         match self {
-            Self::Cubic => &["illes_fraglist/rebuilt"],
-            Self::AbsoluteCubic => &["illes_fraglist/absolute"],
-            Self::Exact => &["illes_fraglist/exact"],
+            Self::Cubic => &["illes_fraglist/rebuilt", PRINTED],
+            Self::AbsoluteCubic => &["illes_fraglist/absolute", PRINTED],
+            Self::Exact => &["illes_fraglist/exact", PRINTED],
+            Self::Robust => &["illes_fraglist/exact", "illes_fraglist/crowd_searched"],
         }
+    }
+
+    /// Whether the piece is the field's own polynomial.
+    pub fn is_exact(self) -> bool {
+        matches!(self, Self::Exact | Self::Robust)
     }
 
     /// Whether this piece can stand for the kernel; if not, why.
     pub(crate) fn refusal(self, kernel: Kernel) -> Option<String> {
-        if self != Self::Exact || exact_degree(kernel).is_some() {
+        if !self.is_exact() || exact_degree(kernel).is_some() {
             return None;
         }
         let needed = "needed a kernel that is a polynomial of degree six or less along a ray";

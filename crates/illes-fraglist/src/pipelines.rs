@@ -1,29 +1,35 @@
-//! The three pipelines, and what they are specialised for.
+//! The pipelines, and what they are specialised for.
 
 use metaball_core::Kernel;
-use metaball_core::gpu::{
-    Gpu, RenderError, Shader, Specialization, frame_layout, pipeline_layout, scene_layout,
-};
+use metaball_core::gpu::{Gpu, RenderError, Shader, Specialization, frame_layout, scene_layout};
 
-use crate::canvas::{CORE_FORMAT, DEPTH_FORMAT};
-use crate::options::{MOST_ROOM, Options, Piece, exact_degree};
+use crate::options::{Gather, MOST_ROOM, Options, exact_degree};
+use crate::raster::RasterGather;
+use crate::tiles::{TileGather, tile_layout};
 
 /// The bind group layouts, by group.
 pub(crate) struct Layouts {
-    frame: wgpu::BindGroupLayout,
-    scene: wgpu::BindGroupLayout,
+    pub(crate) frame: wgpu::BindGroupLayout,
+    pub(crate) scene: wgpu::BindGroupLayout,
     /// Order and core radii of the balls.
     pub(crate) balls: wgpu::BindGroupLayout,
     /// What a picture's lists are kept in.
     pub(crate) lists: wgpu::BindGroupLayout,
+    /// What its tiles are kept in, in place of the lists.
+    pub(crate) tiles: wgpu::BindGroupLayout,
 }
 
-/// `illes_fraglist/cores.wgsl`, `gather.wgsl` and `cast.wgsl`.
+/// The passes before the cast.
+pub(crate) enum GatherPasses {
+    Raster(RasterGather),
+    Tiles(TileGather),
+}
+
+/// The gathering, and `illes_fraglist/cast.wgsl`.
 pub(crate) struct Pipelines {
     pub(crate) specialized: Specialization,
     pub(crate) layouts: Layouts,
-    pub(crate) cores: wgpu::RenderPipeline,
-    pub(crate) gather: wgpu::RenderPipeline,
+    pub(crate) gather: GatherPasses,
     pub(crate) cast: wgpu::ComputePipeline,
 }
 
@@ -38,27 +44,13 @@ impl Pipelines {
             scene: scene_layout(gpu, &specialized),
             balls: ball_layout(gpu),
             lists: list_layout(gpu),
+            tiles: tile_layout(gpu),
         };
-        let Layouts { frame, scene, balls, lists } = &layouts;
-        let cores = RasterPass {
-            module: "illes_fraglist/cores",
-            vertex: "bound_core",
-            fragment: "draw_core",
-            groups: &[frame, scene, balls],
-            color: Some(CORE_FORMAT),
-            // Depth falls with distance; the clear value is 0.
-            depth_compare: wgpu::CompareFunction::Greater,
+        let gather = match options.gather {
+            Gather::Raster => GatherPasses::Raster(RasterGather::new(gpu, &specialized, &layouts)?),
+            Gather::Tiles => GatherPasses::Tiles(TileGather::new(gpu, &specialized, &layouts)?),
         };
-        // A depth target that nothing is tested against: with a colour target in its place, software
-        // Vulkan drops the storage writes of fragments that others cover.
-        let gather = RasterPass {
-            module: "illes_fraglist/gather",
-            vertex: "bound_support",
-            fragment: "gather",
-            groups: &[frame, scene, balls, lists],
-            color: None,
-            depth_compare: wgpu::CompareFunction::Always,
-        };
+        let Layouts { frame, scene, balls, lists, .. } = &layouts;
         let cast = Shader::new(gpu, "illes cast", "illes_fraglist/cast", &specialized)?.compute(
             gpu,
             "illes cast",
@@ -67,17 +59,15 @@ impl Pipelines {
             &[frame, scene, balls, lists],
             &cast_constants(specialized.kernel, options),
         )?;
-        let cores = cores.pipeline(gpu, &specialized)?;
-        let gather = gather.pipeline(gpu, &specialized)?;
-        Ok(Self { specialized, cores, gather, cast, layouts })
+        Ok(Self { specialized, gather, cast, layouts })
     }
 }
 
-/// The ids of the override constants in `illes_fraglist/records.wgsl`, `exact.wgsl` and
-/// `bernstein.wgsl`.
+/// The ids of the override constants in `illes_fraglist/records.wgsl` and
+/// `polynomial.wgsl`.
 fn cast_constants(kernel: Kernel, options: &Options) -> Vec<(&'static str, f64)> {
     let mut constants = vec![("49", f64::from(options.room.clamp(3, MOST_ROOM)))];
-    if let (Piece::Exact, Some(degree)) = (options.piece, exact_degree(kernel)) {
+    if let (true, Some(degree)) = (options.piece.is_exact(), exact_degree(kernel)) {
         let weight = |power: usize| {
             kernel.coefficients().and_then(|all| all.get(power)).copied().unwrap_or(0.0)
         };
@@ -86,61 +76,6 @@ fn cast_constants(kernel: Kernel, options: &Options) -> Vec<(&'static str, f64)>
         constants.push(("53", f64::from(degree)));
     }
     constants
-}
-
-/// A pass that draws a rectangle for each ball.
-struct RasterPass<'a> {
-    module: &'static str,
-    vertex: &'static str,
-    fragment: &'static str,
-    groups: &'a [&'a wgpu::BindGroupLayout],
-    color: Option<wgpu::TextureFormat>,
-    depth_compare: wgpu::CompareFunction,
-}
-
-impl RasterPass<'_> {
-    /// Depth is written where there is colour.
-    fn pipeline(
-        &self,
-        gpu: &Gpu,
-        spec: &Specialization,
-    ) -> Result<wgpu::RenderPipeline, RenderError> {
-        let shader = Shader::new(gpu, self.module, self.module, spec)?;
-        let options = wgpu::PipelineCompilationOptions::default();
-        let targets: Vec<_> = self.color.map(|format| Some(format.into())).into_iter().collect();
-        gpu.checked(|| {
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(self.module),
-                layout: Some(&pipeline_layout(gpu, self.module, self.groups)),
-                vertex: wgpu::VertexState {
-                    module: &shader.module,
-                    entry_point: Some(self.vertex),
-                    compilation_options: options.clone(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState {
-                    topology: wgpu::PrimitiveTopology::TriangleStrip,
-                    ..wgpu::PrimitiveState::default()
-                },
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: DEPTH_FORMAT,
-                    depth_write_enabled: Some(self.color.is_some()),
-                    depth_compare: Some(self.depth_compare),
-                    stencil: wgpu::StencilState::default(),
-                    bias: wgpu::DepthBiasState::default(),
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &shader.module,
-                    entry_point: Some(self.fragment),
-                    compilation_options: options,
-                    targets: &targets,
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-        })
-    }
 }
 
 /// Group 2: ball of each rank, core radius of each ball.
@@ -169,7 +104,7 @@ fn list_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-fn storage(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
+pub(crate) fn storage(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
     let writers = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
     let readers = writers | wgpu::ShaderStages::VERTEX;
     wgpu::BindGroupLayoutEntry {

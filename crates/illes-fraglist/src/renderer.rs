@@ -3,23 +3,25 @@
 use std::time::{Duration, Instant};
 
 use metaball_core::gpu::{
-    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderAttachments, RenderError,
-    SceneBuffers, Specialization,
+    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderError, SceneBuffers, Specialization,
 };
-use metaball_core::{NO_LIMIT, Scene, Support};
+use metaball_core::{Scene, Support};
 
-use crate::canvas::{Canvas, ListStats};
-use crate::options::Options;
-use crate::pipelines::{Layouts, Pipelines};
+use crate::canvas::{Canvas, ListStats, Rooms};
+use crate::options::{Gather, Options};
+use crate::pipelines::{GatherPasses, Layouts, Pipelines};
 use crate::sort::by_effective_distance;
+
+/// Entries of tiles that a renderer begins with: 1 MB.
+const FIRST_ENTRIES: u32 = 1 << 18;
 
 /// Draws primary rays by fragment lists.
 pub struct Renderer {
     name: &'static str,
     options: Options,
     counting: bool,
-    /// List nodes that the pool must have.
-    nodes: u32,
+    /// What a picture must have room for.
+    rooms: Rooms,
     /// Dispatches of the cast after the first.
     resumes: u32,
     pipelines: Option<Pipelines>,
@@ -28,12 +30,12 @@ pub struct Renderer {
 }
 
 /// What depends on the scene.
-struct Built {
-    scene: SceneBuffers,
+pub(crate) struct Built {
+    pub(crate) scene: SceneBuffers,
     /// Kept to be sorted for each frame.
     supports: Vec<Support>,
     ball_of_rank: wgpu::Buffer,
-    bind_group: wgpu::BindGroup,
+    pub(crate) bind_group: wgpu::BindGroup,
     bytes: u64,
 }
 
@@ -41,11 +43,15 @@ impl Renderer {
     /// A renderer without a scene. `counting` makes shaders that count their work, which costs
     /// time.
     pub fn new(name: &'static str, options: Options, counting: bool) -> Self {
+        let entries = match options.gather {
+            Gather::Raster => None,
+            Gather::Tiles => Some(FIRST_ENTRIES),
+        };
         Self {
             name,
             options,
             counting,
-            nodes: options.first_nodes,
+            rooms: Rooms { nodes: options.first_nodes, entries },
             resumes: 0,
             pipelines: None,
             built: None,
@@ -106,8 +112,8 @@ impl IsoRenderer for Renderer {
         };
         let (gpu, targets) = (frame.gpu(), frame.targets());
         let canvas = match self.canvas.take() {
-            Some(canvas) if canvas.fits(targets, self.nodes) => canvas,
-            _ => Canvas::new(gpu, &pipelines.layouts, targets, self.nodes)?,
+            Some(canvas) if canvas.fits(targets, self.rooms) => canvas,
+            _ => Canvas::new(gpu, &pipelines.layouts, targets, self.rooms)?,
         };
         let canvas = self.canvas.insert(canvas);
 
@@ -118,30 +124,11 @@ impl IsoRenderer for Renderer {
         })?;
         canvas.clear(frame.encoder());
 
-        let balls = order.len() as u32;
-        frame.render("cores", core_attachments(canvas).as_attachments(), |pass| {
-            pass.set_pipeline(&pipelines.cores);
-            pass.set_bind_group(0, targets.bind_group(), &[]);
-            pass.set_bind_group(1, built.scene.bind_group(), &[]);
-            pass.set_bind_group(2, &built.bind_group, &[]);
-            pass.draw(0..4, 0..balls);
-        });
-        let gather_attachments = RenderAttachments {
-            colors: &[],
-            depth: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &canvas.depth,
-                depth_ops: None,
-                stencil_ops: None,
-            }),
-        };
-        frame.render("gather", gather_attachments, |pass| {
-            pass.set_pipeline(&pipelines.gather);
-            pass.set_bind_group(0, targets.bind_group(), &[]);
-            pass.set_bind_group(1, built.scene.bind_group(), &[]);
-            pass.set_bind_group(2, &built.bind_group, &[]);
-            pass.set_bind_group(3, &canvas.bind_group, &[]);
-            pass.draw(0..4, 0..balls);
-        });
+        match (&pipelines.gather, &canvas.tiles) {
+            (GatherPasses::Raster(passes), _) => passes.record(frame, built, canvas),
+            (GatherPasses::Tiles(passes), Some(tiles)) => passes.record(frame, built, tiles),
+            (GatherPasses::Tiles(_), None) => unreachable!("rooms has entries for tiles"),
+        }
         let (columns, rows) = targets.workgroups();
         for dispatch in 0..=self.resumes {
             let label = if dispatch == 0 { "cast" } else { "resume" };
@@ -157,25 +144,36 @@ impl IsoRenderer for Renderer {
         Ok(())
     }
 
-    /// Slot 0 is list nodes, slot 1 the length of a list that is too long.
+    /// Slot 0 is list nodes, 1 the length of a list that is too long, 2 the entries of all tiles, 3
+    /// those of a tile that has too many.
     fn grow(&mut self, _gpu: &Gpu, status: &FrameStatus) -> Result<bool, RenderError> {
-        let [nodes, longest, ..] = status.needed;
-        if nodes > self.nodes {
-            self.nodes = nodes;
-        } else if longest > 0 {
-            let reason = format!(
-                "needed at most {} balls along a ray before its core, found {longest} or more",
-                longest - 1
-            );
-            return Err(RenderError::Unsupported { method: self.name, reason });
-        } else {
+        let [nodes, longest, entries, fullest] = status.needed;
+        let refuse = |reason| Err(RenderError::Unsupported { method: self.name, reason });
+        if fullest > 0 {
+            return refuse(format!("needed at most 30000 balls over a tile, found {fullest}"));
+        }
+        let has_entries = self.rooms.entries.is_none_or(|room| room >= entries);
+        if nodes <= self.rooms.nodes && has_entries {
+            if longest > 0 {
+                return refuse(format!(
+                    "needed at most {} balls along a ray before its core, found more",
+                    longest - 1
+                ));
+            }
             self.resumes = (2 * self.resumes).max(1);
         }
+        self.rooms.nodes = self.rooms.nodes.max(nodes);
+        self.rooms.entries = self.rooms.entries.map(|room| room.max(entries));
         Ok(true)
     }
 }
 
 impl Built {
+    /// Number of balls.
+    pub(crate) fn len(&self) -> u32 {
+        self.supports.len() as u32
+    }
+
     fn new(gpu: &Gpu, scene: &Scene, layouts: &Layouts) -> Result<Self, RenderError> {
         let none = wgpu::BufferUsages::empty();
         let core_radii: Vec<f32> = scene
@@ -202,37 +200,5 @@ impl Built {
         let bytes = buffers.bytes() + core_radii.size() + ball_of_rank.size();
         let supports = scene.supports().to_vec();
         Ok(Self { scene: buffers, supports, ball_of_rank, bind_group, bytes })
-    }
-}
-
-/// Targets of the pass that draws cores, cleared to none.
-struct CoreAttachments<'a> {
-    colors: [Option<wgpu::RenderPassColorAttachment<'a>>; 1],
-    depth: wgpu::RenderPassDepthStencilAttachment<'a>,
-}
-
-fn core_attachments(canvas: &Canvas) -> CoreAttachments<'_> {
-    let far = wgpu::Color { r: f64::from(NO_LIMIT), ..wgpu::Color::BLACK };
-    CoreAttachments {
-        colors: [Some(wgpu::RenderPassColorAttachment {
-            view: &canvas.core,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(far), store: wgpu::StoreOp::Store },
-        })],
-        depth: wgpu::RenderPassDepthStencilAttachment {
-            view: &canvas.depth,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(0.0),
-                store: wgpu::StoreOp::Store,
-            }),
-            stencil_ops: None,
-        },
-    }
-}
-
-impl CoreAttachments<'_> {
-    fn as_attachments(&self) -> RenderAttachments<'_> {
-        RenderAttachments { colors: &self.colors, depth: Some(self.depth.clone()) }
     }
 }

@@ -1,5 +1,7 @@
 //! What the method keeps of a scene on the device.
 
+use std::mem::offset_of;
+
 use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError, SceneBuffers};
 use metaball_core::{Aabb, Scene, View};
@@ -46,7 +48,7 @@ pub(crate) struct ArrangedHead {
     pub(crate) around_balls: [u32; 30],
 }
 
-/// Two indirect draws: the balls, and the picture. Each is the number of vertices, of instances, and
+/// Two indirect draws: the balls, and the tiles. Each is the number of vertices, of instances, and
 /// the first of both.
 const NO_DRAWS: [u32; 8] = [4, 0, 0, 0, 4, 0, 0, 0];
 
@@ -63,6 +65,7 @@ pub(crate) struct Balls {
     bounds: Aabb,
     peeling: wgpu::Buffer,
     seen: wgpu::Buffer,
+    arranged: wgpu::Buffer,
     /// What shaders write for the next layer.
     draws: wgpu::Buffer,
     no_draws: wgpu::Buffer,
@@ -87,11 +90,8 @@ impl Balls {
         let draws = gpu.upload("next draws", &NO_DRAWS, none)?;
         let no_draws = gpu.upload("no draws", &NO_DRAWS, none)?;
         let arguments = gpu.storage("draws", draws.size(), wgpu::BufferUsages::INDIRECT)?;
-        let peeling = gpu.storage(
-            "peeling",
-            size_of::<Peeling>() as u64,
-            wgpu::BufferUsages::UNIFORM,
-        )?;
+        let peeling =
+            gpu.storage("peeling", size_of::<Peeling>() as u64, wgpu::BufferUsages::UNIFORM)?;
 
         let group = |label, layout, buffers: &[&wgpu::Buffer]| {
             let entries: Vec<_> = (0u32..)
@@ -128,6 +128,7 @@ impl Balls {
             placed,
             peeling,
             seen,
+            arranged,
             draws,
             no_draws,
         })
@@ -141,6 +142,12 @@ impl Balls {
     /// Bytes that were sent beside the scene's own: the kernel spheres.
     pub(crate) fn own_upload_bytes(&self) -> u64 {
         4 * u64::from(self.count)
+    }
+
+    /// Balls that the last frame drew.
+    pub(crate) fn drawn(&self, gpu: &Gpu) -> Result<u32, RenderError> {
+        let words: Vec<u32> = gpu.read(&self.arranged)?;
+        Ok(words[offset_of!(ArrangedHead, drawn) / size_of::<u32>()])
     }
 
     /// Workgroups of a pass over the balls.

@@ -43,14 +43,22 @@
 //! the threshold before they count as a root, since a hull may cross the axis where the curve does
 //! not.
 //!
+//! *The test of a layer leaves out squares of 16 × 16 pixels* without a ray left: as the tiles of
+//! section 5.3 let the test end early, though not the peeling, for which balls are not sorted into
+//! tiles here.
+//!
 //! *A ball whose end is lost* to a coincident point (section 7, figure 9a) stays on the list, as
 //! printed, but adds nothing outside its own chord: what is lost can make a surface late, never
 //! early.
 //!
+//! *Not in the paper:* with [`Options::distinct_points`] points with one t are peeled by the index of
+//! their balls, and none is lost. It costs nothing but a number in the list: balls are drawn by
+//! rising index, and the depth test keeps the first.
+//!
 //! # Practice
-//! Right wherever no two points along the ray before the surface coincide in f32 and no more than K
-//! supports overlap there. With more than K the support itself is drawn, as section 7 says, and the
-//! hit is marked as a fallback. t errs by at most half the threshold times the interval's length.
+//! Right wherever no two points along the ray before the surface coincide in f32 (unless they are
+//! told apart) and no more than K supports overlap there. With more than K the support itself is drawn, as section 7 says, and the
+//! hit is marked as a fallback; no list holds more than 30 balls. t errs by at most half the threshold times the interval's length.
 //!
 //! A frame that runs out of layers is incomplete and is drawn again with twice as many. 144 bytes a
 //! pixel with K = 14. At most 2²⁴ − 256 balls: indices are kept as f32.

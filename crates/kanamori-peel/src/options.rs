@@ -11,16 +11,26 @@ pub struct Options {
     /// Width at which a range is a root, in parts of an interval between two points of a ray: 1e-6
     /// to 0.5. The paper prints 10e−4 (section 5.4).
     pub threshold: f32,
-    /// Ranges that can wait while clipping, 1 to 8; the paper's is 3 (section 5.4). It bears on
+    /// Ranges that can wait while clipping, 1 to 4; the paper's is 3 (section 5.4). It bears on
     /// time alone.
     pub stack_size: u32,
     /// Whether balls hidden by kernel spheres are left out (section 5.2).
     pub culling: bool,
+    /// Whether points with one t are told apart by their balls' indices, so that none is lost where
+    /// several coincide (section 7, figure 9a). Not in the paper. Takes the place of one ball in the
+    /// list.
+    pub distinct_points: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { list_capacity: 14, threshold: 1e-3, stack_size: 3, culling: true }
+        Self {
+            list_capacity: 14,
+            threshold: 1e-3,
+            stack_size: 3,
+            culling: true,
+            distinct_points: false,
+        }
     }
 }
 
@@ -28,9 +38,20 @@ impl Default for Options {
 const TARGET_BYTES: u32 = 16;
 
 impl Options {
-    /// Targets of four f32 that hold t, the number of balls and a full list: N_buf.
+    /// As robust as lists of a fixed length can be: no point is lost, and eight targets hold 29
+    /// balls.
+    pub fn robust() -> Self {
+        Self { list_capacity: 29, distinct_points: true, ..Self::default() }
+    }
+
+    /// Numbers of a list before its balls.
+    fn head(&self) -> u32 {
+        2 + u32::from(self.distinct_points)
+    }
+
+    /// Targets of four f32 that hold a full list and what stands before it: N_buf.
     pub(crate) fn targets(&self) -> u32 {
-        (self.list_capacity + 2).div_ceil(4)
+        (self.list_capacity + self.head()).div_ceil(4)
     }
 
     /// Refuses what is out of range or beyond the adapter.
@@ -41,7 +62,7 @@ impl Options {
             .max_color_attachments
             .min(limits.max_color_attachment_bytes_per_sample / TARGET_BYTES)
             .min(8);
-        let longest = (4 * targets).saturating_sub(2);
+        let longest = (4 * targets).saturating_sub(self.head());
         if !(1..=longest).contains(&self.list_capacity) {
             let found = self.list_capacity;
             return refused(format!(
@@ -52,9 +73,9 @@ impl Options {
             let found = self.threshold;
             return refused(format!("clipping threshold: needed 1e-6 to 0.5, found {found}"));
         }
-        if !(1..=8).contains(&self.stack_size) {
+        if !(1..=4).contains(&self.stack_size) {
             let found = self.stack_size;
-            return refused(format!("clipping stack size: needed 1 to 8, found {found}"));
+            return refused(format!("clipping stack size: needed 1 to 4, found {found}"));
         }
         Ok(())
     }

@@ -44,8 +44,9 @@ pub(crate) struct Pipelines {
 
 /// What depends on the kernel: the module with its Bernstein form, and that module's constants.
 /// `None` for a kernel that is no polynomial along a ray.
-fn bernstein(kernel: Kernel) -> Option<(&'static [&'static str], Option<f64>)> {
+pub(crate) fn bernstein(kernel: Kernel) -> Option<(&'static [&'static str], Option<f64>)> {
     match kernel {
+        Kernel::QUARTIC => Some((&["kanamori_peel/quartic"], None)),
         Kernel::Power(exponent) => {
             Some((&["kanamori_peel/power"], Some(f64::from(exponent.get()))))
         }
@@ -93,7 +94,8 @@ impl Pipelines {
         let spec = specialization.choosing(modules);
         let layouts = Layouts::new(gpu, &specialization)?;
         let shader = |module| Shader::new(gpu, module, module, &spec);
-        let (arrange, kernels) = (shader("kanamori_peel/arrange")?, shader("kanamori_peel/kernels")?);
+        let (arrange, kernels) =
+            (shader("kanamori_peel/arrange")?, shader("kanamori_peel/kernels")?);
         let (peel, test) = (shader("kanamori_peel/peel")?, shader("kanamori_peel/test")?);
 
         // The ids of the override constants in the modules.
@@ -103,6 +105,8 @@ impl Pipelines {
             ("34", f64::from(options.stack_size)),
             ("35", f64::from(options.list_capacity)),
         ];
+        let distinct = ("37", f64::from(u8::from(options.distinct_points)));
+        searching.push(distinct);
         searching.extend(exponent.map(|exponent| ("36", exponent)));
 
         let balls = [&layouts.frame, &layouts.scene, &layouts.arranging];
@@ -143,7 +147,7 @@ impl Pipelines {
                 vertex: "cover_picture",
                 fragment: "begin",
                 constants: &searching,
-                layouts: &bottom,
+                layouts: &[frame, scene, drawing, &layouts.testing],
                 targets: &lists,
                 depth: None,
             })?,
@@ -152,7 +156,7 @@ impl Pipelines {
                 shader: &peel,
                 vertex: "bound_ball",
                 fragment: "next_point",
-                constants: &[],
+                constants: &[distinct],
                 layouts: &[frame, scene, drawing, &layouts.peeling],
                 targets: &[Some(POINT_FORMAT.into())],
                 depth: Some(Depth::KeepNearest),
@@ -160,7 +164,7 @@ impl Pipelines {
             test: raster(Raster {
                 label: "test",
                 shader: &test,
-                vertex: "cover_picture",
+                vertex: "cover_tile",
                 fragment: "test_layer",
                 constants: &searching,
                 layouts: &[frame, scene, drawing, &layouts.testing],
@@ -193,7 +197,8 @@ impl Layouts {
                 entries: &entries,
             })
         };
-        let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+        let buffer =
+            |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
         let uniform = buffer(BufferBindingType::Uniform);
         let read = buffer(BufferBindingType::Storage { read_only: true });
         let write = buffer(BufferBindingType::Storage { read_only: false });
@@ -232,7 +237,13 @@ impl Layouts {
             peeling: layout("kanamori peeling", &[(fragment, lists)]),
             testing: layout(
                 "kanamori testing",
-                &[(fragment, lists), (fragment, points), (fragment, depth)],
+                &[
+                    (fragment, lists),
+                    (fragment, points),
+                    (fragment, depth),
+                    (ShaderStages::VERTEX, read),
+                    (fragment, write),
+                ],
             ),
         })
     }

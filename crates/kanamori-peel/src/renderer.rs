@@ -45,6 +45,16 @@ impl Renderer {
         }
     }
 
+    /// How many balls the last frame drew; those that culling left out or that are not in the
+    /// picture are not among them. Waits for the device.
+    ///
+    /// # Errors
+    /// When there is no scene, or the device fails.
+    pub fn balls_drawn(&self, gpu: &Gpu) -> Result<u32, RenderError> {
+        let balls = self.balls.as_ref();
+        balls.ok_or(RenderError::NotBuilt { method: self.name })?.drawn(gpu)
+    }
+
     /// Rectangles of the last frame.
     #[cfg(test)]
     pub(crate) fn placed(&self) -> Option<&wgpu::Buffer> {
@@ -177,9 +187,12 @@ impl Drawing<'_> {
     /// The lists that rays begin with.
     fn begin(&self, frame: &mut Frame<'_>) {
         let targets = frame.targets();
+        self.layers.clear_tiles(frame.encoder(), 0);
         let colors = self.layers.written_before(0);
         frame.render("begin", RenderAttachments { colors: &colors, depth: None }, |pass| {
             self.bind(pass, targets);
+            // The flags after layer 1 are those before layer 0; nothing else is read.
+            pass.set_bind_group(3, self.layers.testing(1), &[]);
             pass.set_pipeline(&self.pipelines.begin);
             pass.draw(0..4, 0..1);
         });
@@ -203,6 +216,7 @@ impl Drawing<'_> {
     /// The search of the layer's intervals, and the lists after it.
     fn test(&self, frame: &mut Frame<'_>, layer: u32) {
         let targets = frame.targets();
+        self.layers.clear_tiles(frame.encoder(), layer + 1);
         let colors = self.layers.written_before(layer + 1);
         frame.render("test", RenderAttachments { colors: &colors, depth: None }, |pass| {
             self.bind(pass, targets);

@@ -1,4 +1,7 @@
 //! Tests that look inside.
 
+mod curves;
 mod layouts;
+mod options;
+mod random;
 mod rectangles;

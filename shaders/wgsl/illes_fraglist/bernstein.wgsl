@@ -3,21 +3,8 @@
 
 #import metaball::illes_fraglist::budget
 #import metaball::illes_fraglist::cubic::NO_ROOT
+#import metaball::illes_fraglist::polynomial::{degree_along_ray, is_quartic, Polynomial}
 #import metaball::work::count_iterations
-
-// 4 or 6.
-@id(53) override degree: u32 = 4u;
-
-// Overrides cannot be imported; this can.
-fn is_quartic() -> bool {
-    return degree == 4u;
-}
-
-// Coefficients in order: low.xyzw, high.xyz. At degree four the last two are not used.
-struct Polynomial {
-    low: vec4<f32>,
-    high: vec3<f32>,
-}
 
 // Narrowest cell in which the number of roots is still asked for: 2^-12 of the interval. What two
 // roots enclose in one is above the threshold by less than the square of it.
@@ -93,7 +80,7 @@ fn climb(cell: Polynomial) -> f32 {
         } else {
             low = u;
         }
-        let newton = u - now / max(f32(degree) * (line.y - line.x), 1e-30);
+        let newton = u - now / max(f32(degree_along_ray()) * (line.y - line.x), 1e-30);
         // Aim a little beyond the root, so that the bracket closes from above, too.
         let aim = newton + select(-1.0, 1.0, now < 0.0) * 1e-7;
         u = select(0.5 * (low + high), aim, aim > low && aim < high);
@@ -129,6 +116,7 @@ fn part_of(polynomial: Polynomial, start: f32, end: f32) -> Polynomial {
         polynomial.low.x, polynomial.low.y, polynomial.low.z, polynomial.low.w,
         polynomial.high.x, polynomial.high.y, polynomial.high.z,
     );
+    let degree = degree_along_ray();
     // De Casteljau's scheme keeps the left part on one edge and the right part on the other.
     for (var level = 1u; level <= degree; level++) {
         for (var index = degree; index >= level; index--) {

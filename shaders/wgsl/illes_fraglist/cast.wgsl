@@ -8,6 +8,7 @@
 #import metaball::illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of}
 #import metaball::illes_fraglist::balls::support_of_rank
 #import metaball::illes_fraglist::budget
+#import metaball::illes_fraglist::crowd
 #import metaball::illes_fraglist::lists
 #import metaball::illes_fraglist::order
 #import metaball::illes_fraglist::piece
@@ -33,7 +34,8 @@ struct Progress {
 const FRESH: u32 = 0u;
 const UNORDERED: u32 = 1u;
 const WAITING: u32 = 2u;
-const DONE: u32 = 3u;
+const CROWDED: u32 = 3u;
+const DONE: u32 = 4u;
 
 @group(3) @binding(3) var<storage, read_write> progress: array<Progress>;
 
@@ -41,6 +43,7 @@ const DONE: u32 = 3u;
 const PASSED: u32 = 0u;
 const FOUND: u32 = 1u;
 const SPENT: u32 = 2u;
+const NO_ROOM: u32 = 3u;
 
 var<private> direction: vec3<f32>;
 // Where the search ends: the core or the opaque thing, whichever is nearer.
@@ -66,25 +69,32 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
         progress[pixel].stage = DONE;
         return;
     }
-    if now.stage != WAITING {
+    if now.stage == FRESH || now.stage == UNORDERED {
         now.stage = UNORDERED;
         if order::restore_order(pixel) {
             now = Progress(WAITING, lists::head_of(pixel), 0.0, 0u);
         }
     }
-    if now.stage == WAITING {
+    if now.stage != UNORDERED {
         let ray = rays[pixel];
         direction = ray.direction;
         let core = lists::core_distance_at(id.xy);
         limit = min(core, ray.t_max);
         position = now.position;
         fallback = now.fallback;
-        recall(lists::head_of(pixel), now.place);
         var place = now.place;
-        let outcome = go_along(&place);
-        if outcome == SPENT {
+        var outcome = NO_ROOM;
+        if now.stage == WAITING {
+            recall(lists::head_of(pixel), place);
+            outcome = go_along(&place);
             now = Progress(WAITING, place, position, fallback);
-        } else {
+        }
+        if outcome == NO_ROOM {
+            now.stage = CROWDED;
+            outcome = search_crowd(lists::head_of(pixel));
+            now.position = position;
+        }
+        if outcome != SPENT {
             now.stage = DONE;
             if outcome == FOUND {
                 write(pixel, position);
@@ -174,6 +184,9 @@ fn pass_up_to(safe: f32) -> u32 {
 // to come may begin before them.
 fn make_room() -> u32 {
     while !records::has_room() {
+        if crowd::can_search() {
+            return NO_ROOM;
+        }
         if !budget::can_go_on() {
             return SPENT;
         }
@@ -183,6 +196,18 @@ fn make_room() -> u32 {
         }
     }
     return PASSED;
+}
+
+// Searches the rest of the ray without the array.
+fn search_crowd(head: u32) -> u32 {
+    var reached = position;
+    let root = crowd::search_crowd(head, direction, limit, &reached);
+    let is_found = root >= 0.0;
+    position = select(reached, root, is_found);
+    if is_found {
+        return FOUND;
+    }
+    return select(SPENT, PASSED, position >= limit);
 }
 
 // Searches the piece before the nearest separator, and passes it when there is no root.

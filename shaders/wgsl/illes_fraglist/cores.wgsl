@@ -2,9 +2,9 @@
 // "lay down depth"). Drawn nearest first, so that later ones are hidden.
 
 #import metaball::cover::covering_corner
-#import metaball::illes_fraglist::balls::{ball_of_rank, core_radii, segment_of}
+#import metaball::illes_fraglist::balls::{ball_of_rank, core_entry, core_radii}
 #import metaball::scene::supports
-#import metaball::view::{pixel_at, rays, view}
+#import metaball::view::{pixel_at, rays, NO_LIMIT}
 
 struct Corner {
     @builtin(position) position: vec4<f32>,
@@ -31,11 +31,10 @@ fn bound_core(@builtin(vertex_index) vertex: u32, @builtin(instance_index) rank:
 @fragment
 fn draw_core(corner: Corner) -> Nearest {
     let direction = rays[pixel_at(vec2<u32>(corner.position.xy))].direction;
-    let segment = segment_of(supports[corner.ball].center, core_radii[corner.ball], direction);
-    if segment.half == 0.0 || segment.middle + segment.half < 0.0 {
+    let t = core_entry(corner.ball, direction);
+    if t == NO_LIMIT {
         discard;
     }
-    let t = max(segment.middle - segment.half, 0.0);
     // Any length of the scene's size that is the same for all.
     let unit = supports[0].radius;
     return Nearest(t, unit / (unit + t));

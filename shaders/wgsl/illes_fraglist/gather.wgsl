@@ -3,10 +3,9 @@
 // order; order.wgsl sees to the rest.
 
 #import metaball::cover::covering_corner
-#import metaball::illes_fraglist::balls::{segment_of, support_of_rank}
+#import metaball::illes_fraglist::balls::{is_gathered, segment_of, support_of_rank}
 #import metaball::illes_fraglist::lists
 #import metaball::scene::scene
-#import metaball::status::{report_needed, report_unfinished}
 #import metaball::view::{pixel_at, rays}
 
 struct Corner {
@@ -27,18 +26,8 @@ fn gather(corner: Corner) {
     let pixel = pixel_at(position);
     let ray = rays[pixel];
     let support = support_of_rank(corner.rank);
-    let segment = segment_of(support.center, support.radius, ray.direction);
     let limit = min(lists::core_distance_at(position), ray.t_max);
-    if segment.half == 0.0 || segment.middle + segment.half < 0.0
-        || segment.middle - segment.half > limit {
-        return;
+    if is_gathered(segment_of(support.center, support.radius, ray.direction), limit) {
+        lists::prepend(pixel, corner.rank);
     }
-    let index = atomicAdd(&lists::pool.asked, 1u);
-    if index >= arrayLength(&lists::pool.nodes) {
-        report_unfinished();
-        report_needed(0u, index + 1u);
-        return;
-    }
-    let next = atomicExchange(&lists::heads[pixel], index + 1u);
-    lists::pool.nodes[index] = lists::Node(corner.rank, next);
 }

@@ -1,6 +1,8 @@
 // Each pixel's list of the balls that its ray meets: linked nodes in one pool (section 5, gathering).
 #define_import_path metaball::illes_fraglist::lists
 
+#import metaball::status::{report_needed, report_unfinished}
+
 // A node of a list. Twin: Node of crates/illes-fraglist/src/canvas.rs.
 struct Node {
     rank: u32,
@@ -25,6 +27,19 @@ const END: u32 = 0u;
 @group(3) @binding(1) var<storage, read_write> pool: Pool;
 // Distance along each pixel's ray to the nearest core; NO_LIMIT where there is none.
 @group(3) @binding(2) var core_distance: texture_2d<f32>;
+
+// Puts a rank before a pixel's list. Where the pool is full the frame is unfinished, and says how large
+// the pool would have to be.
+fn prepend(pixel: u32, rank: u32) {
+    let index = atomicAdd(&pool.asked, 1u);
+    if index >= arrayLength(&pool.nodes) {
+        report_unfinished();
+        report_needed(0u, index + 1u);
+        return;
+    }
+    let next = atomicExchange(&heads[pixel], index + 1u);
+    pool.nodes[index] = Node(rank, next);
+}
 
 fn head_of(pixel: u32) -> u32 {
     return atomicLoad(&heads[pixel]);

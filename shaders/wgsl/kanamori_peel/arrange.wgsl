@@ -6,6 +6,7 @@
 
 #import metaball::kanamori_peel::arranged::{Arranged, MOST_ACTIVE}
 #import metaball::kanamori_peel::rectangle::{place_sphere, Placed}
+#import metaball::kanamori_peel::tile::tile_count
 #import metaball::scene::{scene, supports}
 #import metaball::view::view
 
@@ -22,7 +23,7 @@ struct Block {
 @group(2) @binding(2) var<storage, read> seen: array<u32>;
 @group(2) @binding(3) var<storage, read_write> arranged: Arranged;
 @group(2) @binding(4) var<storage, read_write> blocks: array<Block>;
-// Two indirect draws: the balls, and the picture.
+// Two indirect draws: the balls, and the tiles of the picture.
 @group(2) @binding(5) var<storage, read_write> draws: array<u32, 8>;
 
 const LANES: u32 = 256u;
@@ -70,7 +71,7 @@ fn total(@builtin(local_invocation_index) lane: u32) {
     if lane == LANES - 1u {
         arranged.drawn = sums.x;
         arranged.around = sums.y;
-        draws = array(4u, sums.x, 0u, 0u, 4u, 1u, 0u, 0u);
+        draws = array(4u, sums.x, 0u, 0u, 4u, tile_count(), 0u, 0u);
     }
 }
 

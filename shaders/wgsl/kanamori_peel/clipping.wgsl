@@ -7,11 +7,11 @@
 
 // Width, in parts of the interval, at which a range is a root.
 @id(33) override width_of_root: f32 = 0.001;
-// Ranges that can wait, from 1 to 8. Where one more has to, the furthest is dropped and made again
+// Ranges that can wait, from 1 to 4. Where one more has to, the furthest is dropped and made again
 // from the whole curve when its turn comes.
 @id(34) override stack_size: u32 = 3u;
 
-const MOST_WAITING: u32 = 8u;
+const MOST_WAITING: u32 = 4u;
 
 // A root's outcome beside those in [0, 1].
 const NO_ROOT: f32 = 2.0;

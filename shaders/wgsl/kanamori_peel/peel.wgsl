@@ -11,7 +11,11 @@
 // Nothing lies nearer to an eye outside a support than this.
 const NEAREST: f32 = 1e-30;
 
-// The active balls; t of the last point is the first number of the first layer.
+// Whether points with one t are told apart by their balls' indices, so that none is lost.
+@id(37) override by_index: bool = false;
+
+// The active balls; of the last point, t is the first number of the first layer, and where points are
+// told apart by index the ball is the third.
 @group(3) @binding(0) var lists: texture_2d_array<f32>;
 
 struct Corner {
@@ -42,7 +46,7 @@ fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index
 @fragment
 fn next_point(corner: Corner) -> Point {
     let position = vec2<u32>(corner.position.xy);
-    let last = textureLoad(lists, position, 0, 0).x;
+    let last = textureLoad(lists, position, 0, 0).xz;
     let ray = rays[pixel_at(position)];
     let chord = chord_of(corner.to_center, corner.radius, ray.direction);
     let half = sqrt(max(chord.half_squared, 0.0));
@@ -50,9 +54,17 @@ fn next_point(corner: Corner) -> Point {
     let is_around = corner.around != 0u;
     let enter = max(chord.middle - half, NEAREST);
     let leave = select(chord.middle + half, max(chord.middle + half, NEAREST), is_around);
-    let t = select(leave, enter, enter > last && !is_around);
-    if chord.half_squared <= 0.0 && !is_around || enter >= leave && !is_around || t <= last {
+    let ball = f32(corner.ball);
+    let t = select(leave, enter, !is_around && comes_after(vec2(enter, ball), last));
+    let has_chord = is_around || chord.half_squared > 0.0 && enter < leave;
+    if !has_chord || !comes_after(vec2(t, ball), last) {
         discard;
     }
-    return Point(vec2(t, f32(corner.ball)), to_depth(t));
+    return Point(vec2(t, ball), to_depth(t));
+}
+
+// Whether a point, t and ball, comes after another. Of points with one t the depth test keeps the one
+// drawn first: balls are drawn by rising index.
+fn comes_after(point: vec2<f32>, last: vec2<f32>) -> bool {
+    return point.x > last.x || by_index && point.x == last.x && point.y > last.y;
 }

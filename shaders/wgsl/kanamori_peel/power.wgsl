@@ -1,9 +1,9 @@
 // The power kernel v^n along a chord in Bernstein form: v = 4a s(1-s), so v^n has one coefficient,
-// that of the middle, (4a)^n / (2n over n). The quartic of appendix A is n = 2.
+// that of the middle, (4a)^n / (2n over n). The quartic has a module of its own.
 #define_import_path metaball::kanamori_peel::bernstein
 
 // n, from 1 to 8.
-@id(36) override exponent: u32 = 2u;
+@id(36) override exponent: u32 = 3u;
 
 // Room for the greatest exponent, 8.
 struct Curve {

@@ -5,12 +5,15 @@
 #import metaball::kanamori_peel::list
 #import metaball::kanamori_peel::arranged::{arranged, MOST_ACTIVE}
 #import metaball::kanamori_peel::frame::from_depth
+#import metaball::kanamori_peel::tile::{corner_of_tile, tile_count, tile_of}
 #import metaball::status::report_unfinished
 #import metaball::view::{in_picture, NO_LIMIT, pixel_at, Ray, rays}
 #import metaball::work::{count_layers, write_work}
 
-// K: the longest list, at most four times the number of targets less two.
+// K: the longest list. With what stands before it, it fills the targets at most.
 @id(35) override capacity: u32 = 14u;
+// Whether the last point's ball is kept, see peel.wgsl.
+@id(37) override by_index: bool = false;
 
 // The next layer's two indirect draws: four numbers each, the second is the number of instances.
 @group(2) @binding(5) var<storage, read_write> draws: array<atomic<u32>, 8>;
@@ -20,9 +23,13 @@
 @group(3) @binding(0) var lists: texture_2d_array<f32>;
 @group(3) @binding(1) var points: texture_2d<f32>;
 @group(3) @binding(2) var kernel_depth: texture_depth_2d;
+// Not 0 for each tile that has a ray left: before this layer, and after it.
+@group(3) @binding(3) var<storage, read> tiles_before: array<u32>;
+@group(3) @binding(4) var<storage, read_write> tiles_after: array<u32>;
 
-// A list as the targets keep it, in order: t of the last point, the number of balls, the balls. t is
-// NO_LIMIT once the ray has its answer. What a pipeline has no target for goes nowhere.
+// A list as the targets keep it, in order: t of the last point, the number of balls, where it is kept
+// the last point's ball, the balls. t is NO_LIMIT once the ray has its answer, and where nothing was
+// drawn since. What a pipeline has no target for goes nowhere.
 struct Lists {
     @location(0) first: vec4<f32>,
     @location(1) second: vec4<f32>,
@@ -40,19 +47,32 @@ fn cover_picture(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4<
     return vec4(2.0 * corner - 1.0, 0.5, 1.0);
 }
 
+@vertex
+fn cover_tile(
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) tile: u32,
+) -> @builtin(position) vec4<f32> {
+    if tiles_before[tile] == 0u {
+        return vec4(0.0, 0.0, 0.5, 1.0);
+    }
+    return corner_of_tile(tile, vertex);
+}
+
 // The paper's eye is outside all supports. Here a ray begins with the balls around the eye.
 @fragment
 fn begin(@builtin(position) at: vec4<f32>) -> Lists {
-    let pixel = pixel_at(vec2<u32>(at.xy));
+    let position = vec2<u32>(at.xy);
+    let pixel = pixel_at(position);
     list::listed_count = min(arranged.around, capacity);
     for (var k = 0u; k < list::listed_count; k++) {
         list::listed[k] = arranged.around_balls[k];
     }
     if arranged.around > capacity {
         list::write_support(pixel, rays[pixel], 0.0, list::listed[0]);
-        return stored(NO_LIMIT);
+        return stored(vec2(NO_LIMIT, 0.0));
     }
-    return stored(0.0);
+    tiles_after[tile_of(position)] = 1u;
+    return stored(vec2(0.0, -1.0));
 }
 
 @fragment
@@ -60,23 +80,30 @@ fn test_layer(@builtin(position) at: vec4<f32>) -> Lists {
     let position = vec2<u32>(at.xy);
     let last = restore(position);
     if last == NO_LIMIT {
-        return stored(NO_LIMIT);
+        return stored(vec2(NO_LIMIT, 0.0));
     }
     count_layers(1u);
     let pixel = pixel_at(position);
-    let next = test_interval(position, pixel, rays[pixel], last);
+    let point = textureLoad(points, position, 0).xy;
+    let next = test_interval(position, pixel, rays[pixel], last, point);
     write_work(pixel);
     if next != NO_LIMIT {
         atomicStore(&draws[1], arranged.drawn);
-        atomicStore(&draws[5], 1u);
+        atomicStore(&draws[5], tile_count());
+        tiles_after[tile_of(position)] = 1u;
     }
-    return stored(next);
+    return stored(vec2(next, point.y));
 }
 
 // Searches the interval from the last point to the layer's. Returns the latter, or NO_LIMIT when the
 // ray has its answer.
-fn test_interval(position: vec2<u32>, pixel: u32, ray: Ray, last: f32) -> f32 {
-    let point = textureLoad(points, position, 0).xy;
+fn test_interval(
+    position: vec2<u32>,
+    pixel: u32,
+    ray: Ray,
+    last: f32,
+    point: vec2<f32>,
+) -> f32 {
     let kernel = from_depth(textureLoad(kernel_depth, position, 0));
     let next = select(NO_LIMIT, point.x, point.x > 0.0);
     let end = max(min(min(next, kernel), ray.t_max), last);
@@ -118,17 +145,23 @@ fn restore(position: vec2<u32>) -> f32 {
     let head = textureLoad(lists, position, 0, 0);
     list::listed_count = u32(head.y);
     for (var k = 0u; k < list::listed_count; k++) {
-        let part = textureLoad(lists, position, (k + 2u) / 4u, 0);
-        list::listed[k] = u32(part[(k + 2u) % 4u]);
+        let place = k + select(2u, 3u, by_index);
+        let part = textureLoad(lists, position, place / 4u, 0);
+        list::listed[k] = u32(part[place % 4u]);
     }
     return head.x;
 }
 
-fn stored(t: f32) -> Lists {
+// The list as it is now, after a point with this t and ball.
+fn stored(last: vec2<f32>) -> Lists {
+    let first = vec2(last.x, f32(list::listed_count));
+    let shift = select(0u, 1u, by_index);
+    let third = select(ball_at(0u), last.y, by_index);
     return Lists(
-        vec4(t, f32(list::listed_count), ball_at(0u), ball_at(1u)),
-        four_from(2u), four_from(6u), four_from(10u), four_from(14u), four_from(18u),
-        four_from(22u), four_from(26u),
+        vec4(first, third, ball_at(1u - shift)),
+        four_from(2u - shift), four_from(6u - shift), four_from(10u - shift),
+        four_from(14u - shift), four_from(18u - shift), four_from(22u - shift),
+        four_from(26u - shift),
     );
 }
 

@@ -35,7 +35,8 @@ fn balls() -> Vec<Metaball> {
 fn projected(ball: &Metaball, view: &View) -> Option<(DVec2, DVec2)> {
     const STEPS: u32 = 200;
     let half_height = f64::from(view.camera().half_height());
-    let half = DVec2::new(half_height * f64::from(view.width()) / f64::from(view.height()), half_height);
+    let half =
+        DVec2::new(half_height * f64::from(view.width()) / f64::from(view.height()), half_height);
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for row in 0..=STEPS {
         let (sine, cosine) = (std::f64::consts::PI * f64::from(row) / f64::from(STEPS)).sin_cos();

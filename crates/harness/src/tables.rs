@@ -1,0 +1,3 @@
+//! Tables that papers print, measured anew and set beside the printed numbers.
+
+pub mod gourmel;

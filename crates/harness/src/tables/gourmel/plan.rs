@@ -1,0 +1,129 @@
+//! Which structures are measured on which scenes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::paper::{COUNTED, PRINTED};
+use super::settings::Setting;
+
+/// A scene of the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// 30,000 scattered balls.
+    Scattered30k,
+    /// 100,000 scattered balls.
+    Scattered100k,
+    /// The tornado of 4,000 balls.
+    Tornado4k,
+    /// The tornado of 128,000 balls.
+    Tornado128k,
+    /// The molecule of 5,440 balls; ours has 5,547.
+    Molecule,
+    /// The pool of 10,000 balls.
+    Pool,
+}
+
+/// How much to measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// The paper's scenes.
+    Whole,
+    /// Scenes of a few hundred balls in their place, to see that everything works.
+    Quick,
+}
+
+/// A line in a plot: frame time over a quantity.
+#[derive(Debug, Clone)]
+pub struct Series {
+    /// What it shows.
+    pub title: &'static str,
+    /// Name of the horizontal axis.
+    pub axis: &'static str,
+    /// Which quantity of a run is on the horizontal axis.
+    pub quantity: Quantity,
+    /// Scene and setting of each point.
+    pub points: Vec<(String, Setting)>,
+}
+
+/// What a plot's horizontal axis counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Balls of the scene.
+    Balls,
+    /// Levels of the tree that was built.
+    Depth,
+    /// Split balls of a leaf, the mean.
+    Split,
+}
+
+impl Extent {
+    /// What to load for a scene of the paper.
+    pub fn spec(self, place: Place) -> &'static str {
+        match (self, place) {
+            (Self::Whole, Place::Scattered30k) => "scattered-30k",
+            (Self::Whole, Place::Scattered100k) => "scattered-100k",
+            (Self::Whole, Place::Tornado4k) => "tornado-4k",
+            (Self::Whole, Place::Tornado128k) => "tornado-128k",
+            (Self::Whole, Place::Pool) => "pool-10k",
+            (_, Place::Molecule) => "molecule",
+            (Self::Quick, Place::Scattered30k) => "scattered:300",
+            (Self::Quick, Place::Scattered100k) => "scattered:1000",
+            (Self::Quick, Place::Tornado4k) => "tornado:150",
+            (Self::Quick, Place::Tornado128k) => "tornado:300",
+            (Self::Quick, Place::Pool) => "pool:200",
+        }
+    }
+
+    /// The plots of Forcier and Wang's implementation (2017), which has a tornado too: time over the
+    /// number of balls, over the depth of the tree, and over split balls.
+    pub fn series(self) -> Vec<Series> {
+        let (counts, levels, dense, densities): (&[u32], &[usize], u32, &[u32]) = match self {
+            Self::Whole => {
+                (&[1000, 2000, 4000, 8000, 16_000], &[8, 9, 10, 12, 16], 2000, &[5, 10, 20, 40])
+            }
+            Self::Quick => (&[100, 200], &[2, 4], 100, &[5, 10]),
+        };
+        let over_balls = |title, setting| Series {
+            title,
+            axis: "balls",
+            quantity: Quantity::Balls,
+            points: counts.iter().map(|count| (format!("tornado:{count}"), setting)).collect(),
+        };
+        let tornado = self.spec(Place::Tornado4k);
+        vec![
+            over_balls("Number of balls, modified BVH", Setting::Modified),
+            over_balls("Number of balls, Fitted BVH", Setting::Fitted),
+            Series {
+                title: "Depth of the tree",
+                axis: "levels",
+                quantity: Quantity::Depth,
+                points: levels
+                    .iter()
+                    .map(|&most| (tornado.to_owned(), Setting::Levels(most)))
+                    .collect(),
+            },
+            Series {
+                title: "Split balls, by the scene's density",
+                axis: "split balls a leaf",
+                quantity: Quantity::Split,
+                points: densities
+                    .iter()
+                    .map(|density| (format!("tornado:{dense}:{density}"), Setting::Fitted))
+                    .collect(),
+            },
+        ]
+    }
+
+    /// Everything that the tables and plots need, each once: settings by scene.
+    pub fn measurements(self) -> BTreeMap<String, BTreeSet<Setting>> {
+        let rates = PRINTED.iter().flat_map(|table| table.rows);
+        let rates = rates.map(|row| (self.spec(row.place).to_owned(), row.setting));
+        let counted = COUNTED.iter().map(|row| row.setting);
+        let counted = counted.map(|setting| (self.spec(Place::Tornado4k).to_owned(), setting));
+        let points = self.series().into_iter().flat_map(|series| series.points);
+        let mut measurements = BTreeMap::<_, BTreeSet<_>>::new();
+        for (spec, setting) in rates.chain(counted).chain(points) {
+            measurements.entry(spec).or_default().insert(setting);
+        }
+        measurements
+    }
+}

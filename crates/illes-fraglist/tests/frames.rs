@@ -1,0 +1,234 @@
+//! Lists, arrays and cubics at their limits.
+
+use glam::{DVec3, Vec3};
+use illes_fraglist::{Gather, Options, Piece, Renderer};
+use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
+use metaball_core::{Camera, Hit, Kernel, Metaball, Ray, Scene, Verdict, View};
+
+/// A drawn picture.
+struct Picture {
+    rays: Vec<Ray>,
+    hits: Vec<Hit>,
+    nodes: u32,
+    core_hits: u32,
+}
+
+fn draw(gpu: &Gpu, scene: &Scene, view: &View, options: Options) -> Picture {
+    let mut renderer = Renderer::new("illes", options, false);
+    renderer.build(gpu, scene).expect("builds");
+    let targets =
+        Targets::new(gpu, view.width(), view.height(), false, false).expect("small targets");
+    render(gpu, &mut renderer, &targets, view).expect("draws");
+    let stats = renderer.list_stats(gpu).expect("readable").expect("a frame was drawn");
+    Picture {
+        rays: targets.read_rays(gpu, view).expect("readable"),
+        hits: targets.read_hits(gpu).expect("readable"),
+        nodes: stats.nodes,
+        core_hits: stats.core_hits,
+    }
+}
+
+/// A view of the origin from so far that a height of `height` fills the picture.
+fn view(distance: f32, height: f32) -> View {
+    let fov = 2.0 * (0.5 * height / distance).atan().to_degrees();
+    let eye = Vec3::new(0.0, 0.0, distance);
+    let camera = Camera::look_at(eye, Vec3::ZERO, Vec3::Y, fov).expect("a legal camera");
+    View::new(camera, 40, 30).expect("a legal size")
+}
+
+/// `count` balls in a cube of side 2, from a fixed sequence.
+fn crowd(count: u32, kernel: Kernel, threshold: f32) -> Scene {
+    let coordinate = |index: u32, axis: u32| {
+        let hash = (3 * index + axis + 1).wrapping_mul(0x9e37_79b9) >> 8;
+        hash as f32 / (1 << 23) as f32 - 1.0
+    };
+    let balls = (0..count).map(|index| {
+        let center = Vec3::new(coordinate(index, 0), coordinate(index, 1), coordinate(index, 2));
+        Metaball { center, radius: 0.6, strength: 0.1 }
+    });
+    Scene::new(balls, kernel, threshold).expect("a legal scene")
+}
+
+fn cubic(kernel: i64) -> Kernel {
+    Kernel::power(kernel).expect("a legal exponent")
+}
+
+#[test]
+fn a_pool_of_any_size_grows_to_the_same_picture() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (scene, view) = (crowd(40, Kernel::Wyvill, 0.1), view(5.0, 4.0));
+    let ample = draw(&gpu, &scene, &view, Options::default());
+    assert!(ample.nodes > 1000 && ample.hits.iter().any(Hit::is_hit));
+    for first_nodes in [0, 1, 100, ample.nodes - 1, ample.nodes] {
+        let grown = draw(&gpu, &scene, &view, Options { first_nodes, ..Options::default() });
+        assert_eq!(grown.hits, ample.hits, "{first_nodes} nodes");
+        assert_eq!(grown.nodes, ample.nodes);
+    }
+}
+
+/// No threshold is ever reached, so that nothing is clipped: by rasteriser and in compute, from
+/// outside and from among the balls. Q² errs by a few roundings of the squared distance, below 50, and
+/// so does the end of a chord that begins behind the eye.
+#[test]
+fn every_chord_is_in_a_list() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let scene = crowd(40, Kernel::Wyvill, 100.0);
+    for view in [view(5.0, 4.0), view(0.3, 1.0)] {
+        for gather in [Gather::Raster, Gather::Tiles] {
+            let picture = draw(&gpu, &scene, &view, Options { gather, ..Options::default() });
+            let allowed = 25.0 * 50.0 * f64::from(f32::EPSILON);
+            let count = |margin| -> usize {
+                let of_ray = |ray| scene.balls().filter(|ball| meets(ray, ball, margin)).count();
+                picture.rays.iter().map(of_ray).sum()
+            };
+            let (least, most) = (count(-allowed) as u32, count(allowed) as u32);
+            assert!((least..=most).contains(&picture.nodes), "{least} {} {most}", picture.nodes);
+            assert!(most - least < 20, "{least} to {most}: too vague");
+            assert!(picture.hits.iter().all(|hit| *hit == Hit::MISS));
+        }
+    }
+}
+
+/// Whether a ray meets a support whose squared radius and reach are larger by a margin.
+fn meets(ray: &Ray, ball: &Metaball, margin: f64) -> bool {
+    let offset = ball.center.as_dvec3() - ray.origin.as_dvec3();
+    let direction = ray.direction.as_dvec3().normalize();
+    let middle = offset.dot(direction);
+    let across = (offset - middle * direction).length_squared();
+    let squared = f64::from(ball.radius).powi(2) - across + margin;
+    squared > 0.0 && middle + squared.sqrt() + margin > 0.0
+}
+
+/// The two gatherings take cores and lists from the same sums; only where two cores are equally deep
+/// to the depth test, to 2⁻²² of their distance, may they pick different ones.
+#[test]
+fn the_compute_twin_draws_the_same_picture() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (scene, view) = (crowd(20, Kernel::QUARTIC, 0.05), view(5.0, 4.0));
+    let published = draw(&gpu, &scene, &view, Options::default());
+    let twin = draw(&gpu, &scene, &view, Options { gather: Gather::Tiles, ..Options::default() });
+    assert!(published.core_hits > 10, "{} core hits: no test of cores", published.core_hits);
+    for (ours, theirs) in twin.hits.iter().zip(&published.hits) {
+        assert_eq!(ours.verdict, theirs.verdict);
+        let is_near = !ours.is_hit() || (ours.t - theirs.t).abs() <= 2e-6 * theirs.t;
+        assert!(is_near, "{ours:?} for {theirs:?}");
+    }
+}
+
+#[test]
+fn a_small_array_marks_what_it_may_spoil_and_nothing_else() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (scene, view) = (crowd(60, Kernel::Wyvill, 0.3), view(5.0, 4.0));
+    let ample = draw(&gpu, &scene, &view, Options::default());
+    assert!(ample.hits.iter().all(|hit| !hit.fallback));
+    let mut before = usize::MAX;
+    for room in [3, 12, 48] {
+        let tight = draw(&gpu, &scene, &view, Options { room, ..Options::default() });
+        let marked = tight.hits.iter().filter(|hit| hit.fallback).count();
+        assert!(marked <= before, "room {room}: {marked} pixels after {before}");
+        before = marked;
+        for (tight, ample) in tight.hits.iter().zip(&ample.hits) {
+            assert!(tight.fallback || tight == ample, "room {room}: {tight:?} for {ample:?}");
+        }
+        if room == 3 {
+            assert!(marked > 100, "an array of three is enough for nearly all: no test");
+        }
+    }
+}
+
+/// Both solvers stop within 4e-7 of their interval, at most a radius, and evaluate to a few 1e-6 of
+/// T; the slope at these hits is above T per radius at all but grazing rays, which get ten times that.
+#[test]
+fn the_robust_variant_is_right_with_any_array() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (scene, view) = (crowd(60, Kernel::Wyvill, 0.3), view(5.0, 4.0));
+    let robust = Options { piece: Piece::Robust, ..Options::default() };
+    let ample = draw(&gpu, &scene, &view, robust);
+    for room in [3, 12] {
+        let tight = draw(&gpu, &scene, &view, Options { room, ..robust });
+        for (tight, ample) in tight.hits.iter().zip(&ample.hits) {
+            assert!(!tight.fallback);
+            assert_eq!(tight.verdict, ample.verdict, "room {room}");
+            let is_near = !ample.is_hit() || (tight.t - ample.t).abs() < 1e-4;
+            assert!(is_near, "room {room}: {tight:?} for {ample:?}");
+        }
+    }
+}
+
+/// Ten balls at one place are one ball of ten times the strength: every rank has its node, although
+/// all distances are equal. The sums differ by ten roundings, and the roots by their tolerance.
+#[test]
+fn equal_distances_have_an_order() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let view = view(5.0, 3.0);
+    let scene = |count: usize, strength| {
+        let ball = Metaball { center: Vec3::ZERO, radius: 1.0, strength };
+        Scene::new(vec![ball; count], cubic(3), 0.3).expect("a legal scene")
+    };
+    let many = draw(&gpu, &scene(10, 0.1), &view, Options::default());
+    let one = draw(&gpu, &scene(1, 1.0), &view, Options::default());
+    let near =
+        |a: &Hit, b: &Hit| a.verdict == b.verdict && (a.t == b.t || (a.t - b.t).abs() < 1e-5);
+    let differing = many.hits.iter().zip(&one.hits).filter(|(a, b)| !near(a, b)).count();
+    // One ring of pixels is clipped by the core of the one and seen by the cubic of the other.
+    assert!(one.hits.iter().filter(|hit| hit.is_hit()).count() > 100);
+    assert!(differing <= one.core_hits as usize, "{differing} pixels differ");
+}
+
+#[test]
+fn an_eye_in_a_core_is_inside() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let balls = [Metaball::new(Vec3::new(0.0, 0.1, 5.0), 1.0), Metaball::new(Vec3::ZERO, 1.0)];
+    for piece in [Piece::Cubic, Piece::Exact] {
+        let scene = Scene::new(balls, Kernel::QUARTIC, 0.5).expect("a legal scene");
+        let options = Options { piece, ..Options::default() };
+        let picture = draw(&gpu, &scene, &view(5.0, 3.0), options);
+        assert!(picture.hits.iter().all(|hit| hit.verdict == Verdict::Inside && hit.t == 0.0));
+    }
+}
+
+/// Figure 5 and equations (2) and (3), corrected, in f64: the value where the method says that the
+/// cubic reaches T. At the distance D in radii, projections, separators and the hit itself err by
+/// about four roundings of D together, twice for the interval's two ends; a cubic rises by at most
+/// 1.5γ per half chord, and grazing chords, short but low, by no more.
+#[test]
+fn the_cubic_reaches_the_threshold_at_any_distance() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let scene = crowd(40, cubic(3), 0.12);
+    for distance in [10.0, 1e3, 1e5] {
+        let picture = draw(&gpu, &scene, &view(distance, 4.0), Options::default());
+        let mut measured = 0;
+        for (ray, hit) in picture.rays.iter().zip(&picture.hits).filter(|(_, hit)| hit.is_hit()) {
+            let (value, slope) = published_cubic(&scene, ray, f64::from(hit.t));
+            let rounding = 8.0 * f64::from(f32::EPSILON) * f64::from(distance);
+            let error = (value - 0.12).abs();
+            assert!(error < 1e-5 + rounding * slope, "{distance}: {error:.2e}, slope {slope}");
+            measured += 1;
+        }
+        assert!(measured > 100, "{distance}: {measured} hits");
+        assert_eq!(picture.core_hits, 0, "strengths are below the threshold: there is no core");
+    }
+}
+
+/// Value of the sum of cubics at t, and the sum of their greatest slopes.
+fn published_cubic(scene: &Scene, ray: &Ray, t: f64) -> (f64, f64) {
+    let direction: DVec3 = ray.direction.as_dvec3();
+    let (mut value, mut slope) = (0.0, 0.0);
+    for ball in scene.balls() {
+        let offset = ball.center.as_dvec3() - ray.origin.as_dvec3();
+        let middle = offset.dot(direction) / direction.length_squared();
+        let across = (offset - middle * direction).length_squared();
+        let squared = f64::from(ball.radius).powi(2);
+        if across >= squared {
+            continue;
+        }
+        let half = (squared - across).sqrt();
+        let peak = f64::from(ball.strength) * scene.kernel().value(across / squared);
+        let part = (1.0 - (t - middle).abs() / half).max(0.0);
+        value += peak * part * part * (3.0 - 2.0 * part);
+        slope += 1.5 * peak / half;
+        // Off-axis errors move γ, too.
+        slope += 6.0 * f64::from(ball.strength) / f64::from(ball.radius);
+    }
+    (value, slope)
+}

@@ -1,0 +1,235 @@
+//! Bernstein forms and Bézier clipping on the device, against f64.
+
+use metaball_core::Kernel;
+use metaball_core::gpu::{Gpu, Shader, Specialization};
+use metaball_shaders::Module;
+
+use super::random::Random;
+use crate::pipelines::bernstein;
+
+/// A curve's coefficients, or what belongs to one: room for degree 16 and three numbers more.
+type Record = [f32; 20];
+
+/// What entry `evaluate` of the source makes of each record. `constants` are those of the modules
+/// that it imports, the exponent aside.
+fn evaluate(
+    gpu: &Gpu,
+    source: &'static str,
+    kernel: Kernel,
+    constants: &[(&str, f64)],
+    inputs: &[Record],
+) -> Vec<Record> {
+    let spec = Specialization { kernel, ..Specialization::without_balls() };
+    let (modules, exponent) = bernstein(kernel).expect("has a form");
+    let spec = spec.choosing(modules);
+    let mut constants = constants.to_vec();
+    constants.extend(exponent.map(|exponent| ("36", exponent)));
+    let module = Module { name: "test", source, is_entry: true };
+    let shader = Shader::of_module(gpu, &module, &spec).expect("composes");
+    let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("records"),
+        entries: &[storage(0, true), storage(1, false)],
+    });
+    let pipeline = shader
+        .compute(gpu, "evaluate", "evaluate", &spec, &[&layout], &constants)
+        .expect("makes a pipeline");
+    let none = wgpu::BufferUsages::empty();
+    let workgroups = (inputs.len() as u32).div_ceil(64);
+    let inputs = gpu.upload("inputs", inputs, none).expect("small");
+    let outputs = gpu.storage("outputs", inputs.size(), none).expect("small");
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("records"),
+        layout: &layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: inputs.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: outputs.as_entire_binding() },
+        ],
+    });
+    gpu.checked(|| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(workgroups, 1, 1);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+    })
+    .expect("runs");
+    gpu.read(&outputs).expect("reads")
+}
+
+/// The value of a curve in Bernstein form, by de Casteljau in f64.
+fn value(coefficients: &[f32], u: f64) -> f64 {
+    let mut d: Vec<f64> = coefficients.iter().copied().map(f64::from).collect();
+    while d.len() > 1 {
+        d = d.windows(2).map(|pair| (1.0 - u) * pair[0] + u * pair[1]).collect();
+    }
+    d[0]
+}
+
+/// Random parts of random chords under every kernel that has a form. Along a chord v = 4a s(1−s);
+/// the coefficients make at most 2α + 8 roundings of numbers up to the strength, two subdivisions
+/// 3·2α each: below 128 · 2⁻²³ for α = 8.
+#[test]
+fn bernstein_forms_are_the_kernel() {
+    const SOURCE: &str = "#import metaball::kanamori_peel::bernstein::{along_chord, degree}\n\
+        #import metaball::kanamori_peel::clipping::part
+        @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
+        @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
+        @compute @workgroup_size(64)
+        fn evaluate(@builtin(global_invocation_id) id: vec3<u32>) {
+            if id.x >= arrayLength(&inputs) {
+                return;
+            }
+            let chord = inputs[id.x];
+            let curve = part(along_chord(chord[0], chord[1]), chord[2], chord[3]);
+            for (var i = 0u; i <= degree(); i++) {
+                outputs[id.x][i] = curve.d[i];
+            }
+        }";
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut random = Random::new(1);
+    let chords: Vec<Record> = (0..400)
+        .map(|_| {
+            let (low, high) = (random.unit(), random.unit());
+            let mut chord = Record::default();
+            chord[..4].copy_from_slice(&[
+                random.unit(),
+                0.1 + 2.0 * random.unit(),
+                low.min(high),
+                low.max(high),
+            ]);
+            chord
+        })
+        .collect();
+    for kernel in Kernel::all() {
+        let Some(degree) = kernel.degree_along_ray() else { continue };
+        let curves = evaluate(&gpu, SOURCE, kernel, &[], &chords);
+        for (chord, curve) in chords.iter().zip(curves) {
+            let [a, strength, low, high] = [0, 1, 2, 3].map(|index| f64::from(chord[index]));
+            for step in 0..=20 {
+                let u = f64::from(step) / 20.0;
+                let s = low + (high - low) * u;
+                let needed = strength * kernel.value(1.0 - 4.0 * a * s * (1.0 - s));
+                let error = (value(&curve[..=degree], u) - needed).abs();
+                let allowed = 128.0 * f64::from(f32::EPSILON) * strength;
+                assert!(error <= allowed, "{kernel}, {chord:?} at {u}: {error:e}");
+            }
+        }
+    }
+}
+
+/// Finds the first root of each curve: 0 to 1, or 2 where there is none.
+const ROOTS: &str = "#import metaball::kanamori_peel::bernstein::{Curve, degree}\n\
+    #import metaball::kanamori_peel::clipping::first_root
+    @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
+    @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
+    @compute @workgroup_size(64)
+    fn evaluate(@builtin(global_invocation_id) id: vec3<u32>) {
+        if id.x >= arrayLength(&inputs) {
+            return;
+        }
+        var curve = Curve();
+        for (var i = 0u; i <= degree(); i++) {
+            curve.d[i] = inputs[id.x][i];
+        }
+        outputs[id.x][0] = first_root(curve);
+    }";
+
+/// Roots of curves of degree six with a threshold and a stack size.
+fn roots(gpu: &Gpu, curves: &[Record], threshold: f64, stack_size: f64) -> Vec<f64> {
+    let constants = [("33", threshold), ("34", stack_size)];
+    let roots = evaluate(gpu, ROOTS, Kernel::Wyvill, &constants, curves);
+    roots.iter().map(|record| f64::from(record[0])).collect()
+}
+
+fn curve(coefficients: [f32; 7]) -> Record {
+    let mut record = Record::default();
+    record[..7].copy_from_slice(&coefficients);
+    record
+}
+
+/// Random curves against a fine grid: the first grid cell with a change of sign holds the first
+/// root, unless the curve comes so near to the axis before it, or nowhere else, that f32 cannot
+/// tell; such curves are left out. Twenty subdivisions of seven roundings of numbers up to 1 err by
+/// less than 200 · 2⁻²³ = 2.4e-5.
+#[test]
+fn clipping_finds_the_first_root() {
+    const STEPS: u32 = 4000;
+    const UNCLEAR: f64 = 2.4e-5;
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut random = Random::new(2);
+    let curves: Vec<_> = (0..600)
+        .map(|_| {
+            let mut coefficients = [(); 7].map(|()| 2.0 * random.unit() - 1.0);
+            coefficients[0] = -random.unit();
+            curve(coefficients)
+        })
+        .collect();
+    for (threshold, stack_size) in [(1e-3, 1.0), (1e-3, 3.0), (1e-4, 3.0), (1e-4, 4.0)] {
+        let (mut found, mut missed) = (0, 0);
+        let roots = roots(&gpu, &curves, threshold, stack_size);
+        for (curve, root) in curves.iter().zip(roots) {
+            let at = |step: u32| value(&curve[..7], f64::from(step) / f64::from(STEPS));
+            let first = (1..=STEPS).find(|&step| at(step) >= 0.0);
+            let before = (0..first.unwrap_or(STEPS + 1)).map(at).fold(f64::MIN, f64::max);
+            let is_isolated = first.is_some_and(|step| at(step - 1) < 0.0);
+            let Some(step) = first else {
+                if before < -UNCLEAR {
+                    assert_eq!(root, 2.0, "{curve:?}");
+                    missed += 1;
+                }
+                continue;
+            };
+            // Near the root itself values are small; a touch before it would be a maximum.
+            let touches = (1..step.saturating_sub(1))
+                .any(|k| at(k) > -UNCLEAR && at(k) > at(k - 1) && at(k) > at(k + 1));
+            if is_isolated && !touches {
+                let error = (root - f64::from(step) / f64::from(STEPS)).abs();
+                assert!(error <= threshold + 1.5 / f64::from(STEPS), "{curve:?}: {root} at {step}");
+                found += 1;
+            }
+        }
+        assert!(found > 200 && missed > 20, "{found} found, {missed} missed");
+    }
+}
+
+/// (u − r)² − h², turned over, raised to degree six: roots r ∓ h, a double root for h = 0, none for
+/// h² < 0. A quadratic's Bernstein coefficient of index i at degree six is
+/// −(r² − h²) + 2r·i/6 − i(i − 1)/30.
+#[test]
+fn clipping_copes_with_tangents() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let touching = |r: f64, squared: f64| {
+        let coefficient = |index: i32| {
+            let i = f64::from(index);
+            (squared - r * r + 2.0 * r * i / 6.0 - i * (i - 1.0) / 30.0) as f32
+        };
+        curve([0, 1, 2, 3, 4, 5, 6].map(coefficient))
+    };
+    for squared in [1e-2, 1e-4, 1e-5, -1e-5, -1e-4, -1e-2] {
+        let places: Vec<f64> = (4..=19).map(|index| f64::from(index) / 20.0 + 0.003).collect();
+        let curves: Vec<_> = places.iter().map(|&r| touching(r, squared)).collect();
+        for stack_size in [1.0, 3.0] {
+            for (r, root) in places.iter().zip(roots(&gpu, &curves, 1e-3, stack_size)) {
+                if squared < 0.0 {
+                    assert_eq!(root, 2.0, "touch at {r} from {squared:e} below");
+                } else {
+                    // The value moves by 2h a unit of u: 1e-6 of rounding is 2e-4 for h² = 1e-5.
+                    let error = (root - (r - squared.sqrt())).abs();
+                    assert!(error <= 1e-3 + 2e-4, "root {root} near {r} for {squared:e}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+// Sorts balls into the tiles of the picture: counts, adds up, fills in.
+
+#import metaball::illes_fraglist::tiles
+#import metaball::illes_fraglist::tiles::{entries, marks}
+#import metaball::scene::scene
+#import metaball::status::{report_needed, report_unfinished}
+
+@compute @workgroup_size(64)
+fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let rank = id.x + id.y * groups.x * 64u;
+    if rank >= scene.balls {
+        return;
+    }
+    let side = tiles::tile_side();
+    let across = tiles::tiles_across(side);
+    let range = tiles::tiles_of_ball(rank, side);
+    for (var row = range.first.y; row < range.end.y; row++) {
+        for (var column = range.first.x; column < range.end.x; column++) {
+            atomicAdd(&marks[row * across + column], 1u);
+        }
+    }
+}
+
+const THREADS: u32 = 256u;
+var<workgroup> sums: array<u32, THREADS>;
+
+// Turns counts into places, in one workgroup: each invocation adds up a run of tiles.
+@compute @workgroup_size(256)
+fn place_tiles(@builtin(local_invocation_index) thread: u32) {
+    let run = tiles::MOST_TILES / THREADS;
+    var sum = 0u;
+    for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
+        sum += atomicLoad(&marks[tile]);
+    }
+    sums[thread] = sum;
+    workgroupBarrier();
+    var place = 0u;
+    for (var before = 0u; before < thread; before++) {
+        place += sums[before];
+    }
+    for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
+        place += atomicExchange(&marks[tile], place);
+    }
+    if thread == THREADS - 1u && place > arrayLength(&entries) {
+        report_unfinished();
+        report_needed(2u, place);
+    }
+}
+
+@compute @workgroup_size(64)
+fn fill_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let rank = id.x + id.y * groups.x * 64u;
+    if rank >= scene.balls {
+        return;
+    }
+    let side = tiles::tile_side();
+    let across = tiles::tiles_across(side);
+    let range = tiles::tiles_of_ball(rank, side);
+    for (var row = range.first.y; row < range.end.y; row++) {
+        for (var column = range.first.x; column < range.end.x; column++) {
+            let place = atomicAdd(&marks[row * across + column], 1u);
+            if place < arrayLength(&entries) {
+                entries[place] = rank;
+            }
+        }
+    }
+}

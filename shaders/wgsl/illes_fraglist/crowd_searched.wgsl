@@ -1,0 +1,102 @@
+// More separators than the array has room for: the rest of the ray is searched without it, in
+// stretches that each take one walk along the list. It costs time, and the picture stays right.
+#define_import_path metaball::illes_fraglist::crowd
+
+#import metaball::illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of}
+#import metaball::illes_fraglist::balls::support_of_rank
+#import metaball::illes_fraglist::bernstein::first_root_of_polynomial
+#import metaball::illes_fraglist::budget
+#import metaball::illes_fraglist::cubic::NO_ROOT
+#import metaball::illes_fraglist::lists
+#import metaball::illes_fraglist::polynomial::{add_kernel, constant, Polynomial}
+#import metaball::kernel::kernel
+#import metaball::scene::scene
+#import metaball::strength::strength
+#import metaball::work::{count_evaluations, count_leaf_test}
+
+// Whether a ray can be searched without the array.
+fn can_search() -> bool {
+    return true;
+}
+
+// What one walk along the list tells of a stretch of the ray.
+struct Stretch {
+    // The field less the threshold, where no chord begins or ends inside.
+    field: Polynomial,
+    // The field is nowhere above this: the sum of each ball's greatest value, rounding included.
+    bound: f32,
+    // Where the first chord begins or ends inside; the greatest float where none does.
+    separator: f32,
+    // Whether no chord goes on behind the stretch.
+    is_last: bool,
+}
+
+// Searches from the position to the limit. Returns the first root, or NO_ROOT with the position as
+// far as was searched: short of the limit where the budget is spent.
+fn search_crowd(
+    head: u32,
+    direction: vec3<f32>,
+    limit: f32,
+    position: ptr<function, f32>,
+) -> f32 {
+    var width = support_of_rank(lists::rank_at(head)).radius;
+    while *position < limit && budget::can_go_on() {
+        let start = *position;
+        // However short, a stretch reaches the next float.
+        let end = min(max(start + width, start * 1.0000002), limit);
+        let stretch = look_at_stretch(head, direction, start, end);
+        if stretch.bound >= scene.threshold {
+            if stretch.separator < end {
+                // Too much in one stretch: half of it, or at last the piece before the separator.
+                width = max(0.5 * (end - start), stretch.separator - start);
+                continue;
+            }
+            let root = first_root_of_polynomial(stretch.field);
+            if root >= 0.0 {
+                return start + root * (end - start);
+            }
+        }
+        *position = select(end, limit, stretch.is_last);
+        width = 2.0 * (end - start);
+    }
+    return NO_ROOT;
+}
+
+fn look_at_stretch(head: u32, direction: vec3<f32>, start: f32, end: f32) -> Stretch {
+    count_leaf_test();
+    var field = constant(-scene.threshold);
+    var bound = 0.0;
+    var separator = 0x1.fffffep+127f;
+    var is_last = true;
+    var balls = 0u;
+    for (var place = head; place != lists::END; place = lists::after(place)) {
+        let rank = lists::rank_at(place);
+        let support = support_of_rank(rank);
+        if effective_distance(support) > end {
+            is_last = false;
+            break;
+        }
+        balls++;
+        let segment = segment_of(support.center, support.radius, direction);
+        let enter = segment.middle - segment.half;
+        let leave = segment.middle + segment.half;
+        is_last = is_last && leave <= end;
+        if segment.half == 0.0 || leave <= start || enter >= end {
+            continue;
+        }
+        separator = min(separator, select(0x1.fffffep+127f, enter, enter > start));
+        separator = min(separator, select(0x1.fffffep+127f, leave, leave < end));
+        let ratio = segment.half / support.radius;
+        let depth = ratio * ratio;
+        let weight = strength(ball_of_rank[rank]);
+        let ends = (vec2(start, end) - segment.middle) / support.radius;
+        let nearest = clamp(0.0, ends.x, ends.y);
+        bound += weight * kernel(depth - nearest * nearest);
+        add_kernel(&field, depth, ends, weight);
+    }
+    budget::spend(balls + 1u);
+    count_evaluations(balls);
+    // A sum of n terms that are not negative, each of a few roundings (numerics, section 9).
+    let rounding = f32(balls + 16u) * 0x1p-22f;
+    return Stretch(field, bound * (1.0 + rounding), separator, is_last);
+}
