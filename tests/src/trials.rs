@@ -3,6 +3,7 @@
 mod agreement;
 mod canaries;
 mod capacity;
+mod fragments;
 mod frames;
 mod gallery;
 mod peeling;
@@ -22,6 +23,7 @@ pub fn all() -> Vec<Trial> {
     let mut trials = agreement::trials();
     trials.extend(canaries::trials());
     trials.extend(capacity::trials());
+    trials.extend(fragments::trials());
     trials.extend(frames::trials());
     trials.extend(peeling::trials());
     trials

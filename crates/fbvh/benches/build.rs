@@ -82,7 +82,8 @@ fn trace(criterion: &mut Criterion) {
             })
             .collect();
         group.throughput(Throughput::Elements(rays.len() as u64));
-        for (structure, options) in STRUCTURES {
+        let certified = ("fbvh-certified", Options::certified());
+        for (structure, options) in STRUCTURES.into_iter().chain([certified]) {
             let tree = Tree::build(&scene, &options).expect("legal options");
             let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
             group.bench_with_input(BenchmarkId::new(structure, name), &rays, |bencher, rays| {

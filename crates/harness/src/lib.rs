@@ -21,6 +21,7 @@ pub mod methods;
 pub mod numbers;
 pub mod output;
 pub mod picture;
+pub mod plot;
 pub mod record;
 pub mod reference;
 pub mod render;

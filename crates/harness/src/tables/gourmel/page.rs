@@ -1,10 +1,11 @@
 //! `gourmel.html`: the tables for a person to read.
 
-use super::Measurements;
 use super::compare::{Row, Table, WorkRow, find};
 use super::run::Run;
+use super::{Line, Measurements, Point};
 use crate::html::{escape, fill};
 use crate::numbers::{decimal, grouped};
+use crate::plot::line_plot;
 use crate::report::{STYLE, fact, provenance, remark_paragraphs};
 
 /// The page; needs no other file and no network.
@@ -18,24 +19,7 @@ pub(super) fn page(measurements: &Measurements) -> String {
     let (command, commit) = (&measurements.command, &measurements.commit);
     let tables: String =
         measurements.tables.iter().map(|table| rates(table, measurements)).collect();
-    let series: String = measurements
-        .series
-        .iter()
-        .map(|series| {
-            let rows = series.points.iter().filter_map(|point| {
-                let run = find(&measurements.runs, &point.scene, &point.setting)?;
-                Some(format!(
-                    "<tr><td>{}</td><td class=\"text\">{}</td>{}</tr>\n",
-                    decimal(point.x),
-                    escape(&point.scene),
-                    run_cells(Some(run))
-                ))
-            });
-            let headings =
-                format!("<th>{}</th><th class=\"text\">Scene</th>{RUN_HEADINGS}", series.axis);
-            section(&format!("Plot: {}", series.title), &headings, &rows.collect::<String>())
-        })
-        .collect();
+    let series: String = measurements.series.iter().map(|line| plot(line, measurements)).collect();
     let parts = [
         ("style", STYLE.to_owned()),
         ("facts", provenance(command, commit, &measurements.machine) + &facts),
@@ -49,7 +33,7 @@ const RUN_HEADINGS: &str = "<th>Build<small>ms</small></th>\
      <th>Frame<small>ms: mean (least–most)</small></th>\
      <th>List entries<small>a ball</small></th>\
      <th>Split<small>a leaf</small></th>\
-     <th>Work<small>a ray: nodes, leaves, balls, evaluations</small></th>";
+     <th>Work<small>a ray: nodes, leaves, balls, kernels</small></th>";
 
 fn run_cells(run: Option<&Run>) -> String {
     let Some(run) = run else {
@@ -62,7 +46,7 @@ fn run_cells(run: Option<&Run>) -> String {
         format!("{} ({}–{})", decimal(run.mean_ms()), decimal(least), decimal(most)),
         decimal(run.tree.list_entries as f64 / run.balls.max(1) as f64),
         decimal(run.tree.split_per_leaf),
-        [work.nodes_per_ray, work.leaf_tests_per_ray, work.balls_per_ray, work.evaluations_per_ray]
+        [work.nodes_per_ray, work.leaf_tests_per_ray, work.balls_per_ray, run.kernels_per_ray()]
             .map(decimal)
             .join(", "),
     ];
@@ -122,6 +106,20 @@ fn work(table: &[WorkRow]) -> String {
          <th>Balls<small>ours (paper)</small></th><th class=\"text\">Why they differ</th>";
     let rows: String = table.iter().map(row).collect();
     section("Table 3: work a ray on the tornado", headings, &rows)
+}
+
+fn plot(line: &Line, measurements: &Measurements) -> String {
+    let row = |point: &Point| {
+        let run = find(&measurements.runs, &point.scene, &point.setting);
+        let (x, scene) = (decimal(point.x), escape(&point.scene));
+        format!("<tr><td>{x}</td><td class=\"text\">{scene}</td>{}</tr>\n", run_cells(run))
+    };
+    let headings =
+        format!("<th>{}</th><th class=\"text\">Scene</th>{RUN_HEADINGS}", escape(&line.axis));
+    let rows: String = line.points.iter().map(row).collect();
+    let points: Vec<_> = line.points.iter().map(|point| (point.x, point.frame_ms)).collect();
+    let drawn = line_plot(&points, &line.axis, "ms a frame");
+    section(&format!("Plot: {}", line.title), &headings, &rows) + &drawn
 }
 
 fn section(title: &str, headings: &str, rows: &str) -> String {

@@ -67,8 +67,7 @@ const fn rate(place: Place, setting: Setting, fps: f64) -> Rate {
 pub const PRINTED: &[Printed] = &[
     Printed {
         name: "Table 1",
-        title: "Modified BVH and Fitted BVH. Molecule 2 is Molecule 1 under ambient occlusion, and \
-                primary rays are all that is drawn here",
+        title: "Modified BVH and Fitted BVH",
         rows: &[
             full(Scattered30k, Modified, 101.0, (4.6, 12.4), 7.4),
             full(Scattered30k, Fitted, 79.0, (4.9, 12.5), 9.4),

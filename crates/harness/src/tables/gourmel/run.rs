@@ -77,6 +77,14 @@ impl Run {
         samples.iter().sum::<f64>() / samples.len().max(1) as f64
     }
 
+    /// Evaluations of single kernels a ray, about: points at which the field is evaluated, times the
+    /// balls of a leaf that is tested.
+    pub fn kernels_per_ray(&self) -> f64 {
+        let work = &self.work;
+        let balls = work.balls_per_ray / work.leaf_tests_per_ray.max(f64::MIN_POSITIVE);
+        work.evaluations_per_ray * balls
+    }
+
     /// Milliseconds of the fastest and the slowest frame.
     pub fn extremes_ms(&self) -> (f64, f64) {
         let samples = || self.frame_ms.samples.iter().copied();
@@ -99,6 +107,9 @@ impl Shoot {
         self.cameras as u64 + 2
     }
 }
+
+/// What is known of a setting before it is timed.
+type Prepared = ((Samples, TreeSize), WorkPerRay);
 
 /// Trees built to time building.
 const BUILDS: usize = 3;
@@ -124,14 +135,14 @@ pub fn measure(
     let mut prepared = Vec::new();
     for &setting in settings {
         progress.stage(format!("{spec}: {}", setting.name()));
-        let contender = build(scene, &setting.options()).and_then(|built| {
+        let outcome = build(scene, &setting.options()).and_then(|built| {
             let drawn = renderer(setting, false);
             let contender = Contender::prepare(gpu, drawn, scene, &targets, &views[0])?;
             let work = count_work(gpu, renderer(setting, true), scene, &views[0])?;
             contenders.push(contender);
             Ok((built, work))
         });
-        prepared.push((setting, contender));
+        prepared.push((setting, outcome));
         progress.advance(2);
     }
 
@@ -139,23 +150,21 @@ pub fn measure(
     let advance = || progress.advance(1);
     let timings = time_all(gpu, &mut contenders, &targets, &views, Duration::MAX, advance);
     let mut timings = timings.into_iter();
-    let run =
-        |(setting, prepared): (Setting, anyhow::Result<((Samples, TreeSize), WorkPerRay)>)| {
-            let about = || format!("{spec}, {}", setting.name());
-            let ((build_ms, tree), work) = prepared.with_context(about)?;
-            let timing =
-                timings.next().context("a timing for each contender")?.with_context(about)?;
-            Ok(Run {
-                scene: spec.to_owned(),
-                balls: scene.len(),
-                setting: setting.name(),
-                build_ms,
-                frame_ms: timing.frame_ms,
-                passes: timing.passes,
-                tree,
-                work,
-            })
-        };
+    let run = |(setting, prepared): (Setting, anyhow::Result<Prepared>)| {
+        let about = || format!("{spec}, {}", setting.name());
+        let ((build_ms, tree), work) = prepared.with_context(about)?;
+        let timing = timings.next().context("a timing for each contender")?.with_context(about)?;
+        Ok(Run {
+            scene: spec.to_owned(),
+            balls: scene.len(),
+            setting: setting.name(),
+            build_ms,
+            frame_ms: timing.frame_ms,
+            passes: timing.passes,
+            tree,
+            work,
+        })
+    };
     Ok(prepared.into_iter().map(run).collect())
 }
 

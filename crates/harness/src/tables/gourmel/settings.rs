@@ -9,7 +9,8 @@ pub enum Setting {
     Modified,
     /// Section 5 with everything.
     Fitted,
-    /// The same with the standard heuristic: a leaf of n balls costs n.
+    /// The same with the standard heuristic: a leaf of n balls costs n, and a traversal step what the
+    /// modified BVH takes it to cost in that unit.
     Linear,
     /// Boxes cut by planes and not fitted; neither tighter boxes nor discarding.
     Cut,
@@ -48,7 +49,11 @@ impl Setting {
         match self {
             Self::Modified => Options::modified_bvh(),
             Self::Fitted => fitted,
-            Self::Linear => Options { cost: Cost::Linear, ..fitted },
+            Self::Linear => Options {
+                cost: Cost::Linear,
+                traversal_cost: Options::modified_bvh().traversal_cost,
+                ..fitted
+            },
             Self::Cut => with(Boxes::Cut, 0),
             Self::Plain => with(Boxes::Support, 0),
             Self::Tighter => with(Boxes::PerNode, 0),

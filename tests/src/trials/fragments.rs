@@ -1,0 +1,79 @@
+//! Fragment lists: that the terms for a cubic in the field's place still catch what is wrong, and what
+//! becomes of more separators than an array holds.
+
+use libtest_mimic::{Failed, Trial};
+use metaball_core::Hit;
+use metaball_core::gpu::Gpu;
+use metaball_core::reference::Oracle;
+
+use super::agreement::{pass, terms_of};
+use super::gallery::{picture, room};
+use super::{SIZE, draw, on_gpu, renderer, view_of};
+use crate::judge::Exam;
+
+const METHOD: &str = "illes";
+const SCENE: &str = "random-200";
+
+/// A way to spoil a picture.
+type Spoil = fn(&mut [Hit]);
+
+pub(super) fn trials() -> Vec<Trial> {
+    let spoilt: [(&str, Spoil); 3] = [
+        ("shifted_by_a_pixel", |hits| hits.rotate_right(1)),
+        ("shifted_by_a_row", |hits| hits.rotate_right(SIZE.0 as usize)),
+        ("moved_by_a_tenth", |hits| hits.iter_mut().for_each(|hit| hit.t *= 1.1)),
+    ];
+    let mut trials: Vec<_> = spoilt
+        .into_iter()
+        .map(|(name, spoil)| {
+            on_gpu(format!("stand_in::rejects_{name}"), move |gpu| rejects(gpu, spoil))
+        })
+        .collect();
+    trials.push(on_gpu("stand_in::most_rays_are_promised".to_owned(), most_rays_are_promised));
+    for (method, is_marked) in [("illes", true), ("illes-exact", true), ("illes-robust", false)] {
+        let name = format!("crowd::{method}");
+        trials.push(on_gpu(name, move |gpu| crowd(gpu, method, is_marked)));
+    }
+    trials
+}
+
+fn rejects(gpu: &Gpu, spoil: Spoil) -> Result<(), Failed> {
+    let room = room(gpu, SCENE)?;
+    let mut hits = picture(gpu, SCENE, METHOD)?.to_vec();
+    pass(&room.exam.judge(&hits, &terms_of(METHOD)))?;
+    spoil(&mut hits);
+    match pass(&room.exam.judge(&hits, &terms_of(METHOD))) {
+        Ok(()) => Err("the spoilt picture passed".into()),
+        Err(_) => Ok(()),
+    }
+}
+
+/// A promise that holds for few rays is none.
+fn most_rays_are_promised(gpu: &Gpu) -> Result<(), Failed> {
+    let room = room(gpu, SCENE)?;
+    let promise = terms_of(METHOD).promise;
+    let rays = room.exam.rays().iter().zip(room.exam.truths());
+    let promised = rays.filter(|(ray, truth)| promise.holds(&room.scene.scene, ray, truth)).count();
+    let needed = room.exam.rays().len() * 8 / 10;
+    if promised < needed {
+        return Err(format!("needed {needed} rays, found {promised}").into());
+    }
+    Ok(())
+}
+
+/// 65 balls over one point: the published array of 96 separators holds 32.
+fn crowd(gpu: &Gpu, method: &str, is_marked: bool) -> Result<(), Failed> {
+    let mut cases = bench_scenes::cases().iter();
+    let case = cases.find(|known| known.name == "crowd").ok_or("no such case")?;
+    let scene = case.scene(65.0)?;
+    let mut renderer = renderer(method)?;
+    let drawn = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
+    let oracle = Oracle::new(&scene.scene);
+    let exam = Exam::new(&scene.scene, &oracle, &drawn.rays);
+    pass(&exam.judge(&drawn.hits, &terms_of(method)))?;
+    let marked = drawn.hits.iter().filter(|hit| hit.fallback).count();
+    if (marked > 0) != is_marked {
+        return Err(format!("{marked} pixels are marked").into());
+    }
+    Ok(())
+}
