@@ -10,7 +10,7 @@ use clap::{Args, Parser, Subcommand};
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
 use harness::contest::Rules;
 use harness::measure::Sampling;
-use harness::methods::{METHODS, Method, find};
+use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
 use harness::render::{Device, Order, render};
 use harness::tables::gourmel;
@@ -34,9 +34,13 @@ enum Command {
         /// Known names, generators such as scattered:50000, or scene and particle files.
         #[arg(value_name = "SCENE", default_values = DEFAULT_SCENES)]
         scenes: Vec<String>,
-        /// Methods, separated by commas; all when left out.
+        /// Methods, separated by commas.
         #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = method_parser())]
+        #[arg(default_values = HEADLINERS)]
         methods: Vec<&'static Method>,
+        /// All methods and their variants.
+        #[arg(long)]
+        every_method: bool,
         /// Timed frames of each method on each scene; when left out five, or what fits in four seconds.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         frames: Option<u16>,
@@ -57,7 +61,7 @@ enum Command {
         /// A known name, a generator such as scattered:50000, or a scene or particle file.
         scene: String,
         /// The method.
-        #[arg(long, value_name = "NAME", default_value = "fbvh", value_parser = method_parser())]
+        #[arg(long, value_name = "NAME", default_value = "fbvh-certified", value_parser = method_parser())]
         method: &'static Method,
         /// Where the PNG goes.
         #[arg(long, value_name = "FILE", default_value = "out/image.png")]
@@ -195,10 +199,18 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> anyhow::Result<()> {
     match command {
-        Command::Compare { scenes, methods, frames, path, every_pixel, out, common } => {
-            let all = || METHODS.iter().collect();
+        Command::Compare {
+            scenes,
+            methods,
+            every_method,
+            frames,
+            path,
+            every_pixel,
+            out,
+            common,
+        } => {
             let rules = Rules {
-                methods: if methods.is_empty() { all() } else { methods },
+                methods: if every_method { METHODS.iter().collect() } else { methods },
                 size: common.size(),
                 sampling: frames.map_or(Sampling::QUICK, |n| Sampling::exactly(n.into())),
                 along_path: path,
@@ -245,14 +257,16 @@ mod tests {
 
     #[test]
     fn compare_has_the_documented_defaults() {
-        let Ok(Command::Compare { scenes, methods, frames, out, common, .. }) =
+        let Ok(Command::Compare { scenes, methods, every_method, frames, out, common, .. }) =
             parse("metaball compare")
         else {
             panic!("compare needs no arguments");
         };
         assert_eq!(scenes, DEFAULT_SCENES);
         assert_eq!(scenes[0], "molecule");
-        assert!(methods.is_empty() && frames.is_none());
+        let names: Vec<_> = methods.iter().map(|method| method.name).collect();
+        assert_eq!(names, HEADLINERS);
+        assert!(!every_method && frames.is_none());
         assert_eq!((common.size(), out), ((640, 480), PathBuf::from("out/compare")));
         assert_eq!(common.adapter(), AdapterChoice::Environment);
         assert_eq!(common.overrides(), Overrides::default());

@@ -20,6 +20,10 @@ pub struct Method {
     pub make: fn(counting: bool) -> Box<dyn IsoRenderer>,
 }
 
+/// What is compared unless other methods are named: the published ones, and the one that is never
+/// wrong.
+pub const HEADLINERS: &[&str] = &["bvh", "fbvh", "fbvh-certified", "kanamori", "illes"];
+
 /// All methods, in the order of tables.
 pub const METHODS: &[Method] = &[
     Method {

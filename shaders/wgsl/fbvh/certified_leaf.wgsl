@@ -69,7 +69,7 @@ struct Bounds {
 
 // One walk along the leaf's list.
 fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32, high: f32) -> Bounds {
-    count_evaluations(1u);
+    count_evaluations(end - first);
     spent += end - first;
     var most = 0.0;
     var least_slope = 0.0;
@@ -118,7 +118,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
 
 // The field less T at a local t, and its slope: best values, no bounds.
 fn field_and_slope(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: f32) -> vec2<f32> {
-    count_evaluations(1u);
+    count_evaluations(end - first);
     spent += end - first;
     var sum = vec2(-scene.threshold, 0.0);
     for (var entry = first; entry < end; entry++) {

@@ -74,7 +74,7 @@ fn contribution_at(ball: u32, direction: vec3<f32>, t: f32) -> f32 {
 
 // Field minus threshold at t, summed over a leaf's list. Four balls an iteration.
 fn field_above(ray: Ray, first: u32, end: u32, t: f32) -> f32 {
-    count_evaluations(1u);
+    count_evaluations(end - first);
     var sum = 0.0;
     var entry = first;
     for (; entry + 4u <= end; entry += 4u) {

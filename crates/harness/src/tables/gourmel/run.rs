@@ -77,12 +77,9 @@ impl Run {
         samples.iter().sum::<f64>() / samples.len().max(1) as f64
     }
 
-    /// Evaluations of single kernels a ray, about: points at which the field is evaluated, times the
-    /// balls of a leaf that is tested.
+    /// Evaluations of single kernels a ray.
     pub fn kernels_per_ray(&self) -> f64 {
-        let work = &self.work;
-        let balls = work.balls_per_ray / work.leaf_tests_per_ray.max(f64::MIN_POSITIVE);
-        work.evaluations_per_ray * balls
+        self.work.evaluations_per_ray
     }
 
     /// Milliseconds of the fastest and the slowest frame.
