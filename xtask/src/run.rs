@@ -40,6 +40,14 @@ pub(crate) fn metaball(arguments: &[String]) -> Result<(), String> {
     }
 }
 
+/// Mesa complains at every adapter it opens where nobody has named a folder for its sockets, which
+/// nothing here uses.
+pub(crate) fn quieten(command: &mut Command) {
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    }
+}
+
 /// Runs a program to its end; its output goes to ours.
 pub(crate) fn to_the_end(command: &mut Command) -> Result<(), String> {
     let name = format!("{command:?}").replace('"', "");

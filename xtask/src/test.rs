@@ -1,7 +1,7 @@
 //! `cargo xtask test`: everything that must hold before a change is taken.
 
 use crate::adapter::{self, Adapter};
-use crate::run::{cargo, say, succeeds, to_the_end};
+use crate::run::{cargo, quieten, say, succeeds, to_the_end};
 
 /// What users may take from the registry. Before the first release they pack only together: each
 /// is found by the next as a freshly packed archive.
@@ -23,6 +23,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
     if !arguments.is_empty() {
         let mut command = cargo();
         command.arg("test").args(arguments).envs(environment);
+        quieten(&mut command);
         return to_the_end(&mut command);
     }
 
@@ -30,6 +31,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
         say(&format!("── {}", step.title));
         let mut command = cargo();
         command.args(&step.arguments).envs(step.environment);
+        quieten(&mut command);
         to_the_end(&mut command)?;
     }
     if succeeds("cargo", &["deny", "--version"]) {

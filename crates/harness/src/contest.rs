@@ -286,7 +286,7 @@ fn measured(
     let count =
         |which: fn(&Hit) -> bool| contender.hits.iter().filter(|hit| which(hit)).count() as u64;
     Measured {
-        build_ms: milliseconds(contender.build.structure + contender.build.pipelines),
+        build_ms: milliseconds(contender.build.structure),
         upload_bytes: contender.build.upload_bytes,
         device_bytes: contender.build.device_bytes,
         frame_ms: timing.frame_ms,

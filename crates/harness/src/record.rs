@@ -123,7 +123,8 @@ impl From<&AdapterReport> for Adapter {
 /// What was measured of complete frames.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// Making all that depends on the scene alone, pipelines included, milliseconds.
+    /// Host time for the structure of the scene, milliseconds; pipelines, which many scenes share, are
+    /// left out.
     pub build_ms: f64,
     /// Bytes sent to the device by the build.
     pub upload_bytes: u64,

@@ -125,7 +125,7 @@ fn on_adapter(gpu: &Gpu, order: &Order, bench: &BenchScene, view: &View) -> anyh
     Ok(Drawn {
         hits: targets.read_hits(gpu)?,
         shaded: Shading::new(gpu).draw(&targets, view, scene, order.picture)?,
-        build_ms: milliseconds(build.structure + build.pipelines),
+        build_ms: milliseconds(build.structure),
         frame_ms: milliseconds(frame.wall),
         device: format!("{} ({})", gpu.report().name, gpu.report().driver),
     })
