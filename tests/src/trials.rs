@@ -7,6 +7,7 @@ mod fragments;
 mod frames;
 mod gallery;
 mod peeling;
+mod twins;
 
 use bench_scenes::{BenchScene, Overrides};
 use libtest_mimic::{Failed, Trial};
@@ -26,6 +27,7 @@ pub fn all() -> Vec<Trial> {
     trials.extend(fragments::trials());
     trials.extend(frames::trials());
     trials.extend(peeling::trials());
+    trials.extend(twins::trials());
     trials
 }
 

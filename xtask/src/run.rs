@@ -21,16 +21,8 @@ pub(crate) fn cargo() -> Command {
 /// The binary `metaball`, in release mode, with these arguments.
 pub(crate) fn metaball(arguments: &[String]) -> Result<(), String> {
     let mut command = cargo();
-    command.args([
-        "run",
-        "--quiet",
-        "--release",
-        "--package",
-        "harness",
-        "--bin",
-        "metaball",
-        "--",
-    ]);
+    quieten(&mut command);
+    command.args(["run", "--release", "--package", "harness", "--bin", "metaball", "--"]);
     let status = command.args(arguments).status();
     match status.map_err(|error| format!("cargo could not be started: {error}"))?.code() {
         Some(0) => Ok(()),

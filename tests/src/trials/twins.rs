@@ -1,0 +1,34 @@
+//! The tracers on the CPU and in WGSL are twins: along the same rays they find the same.
+
+use fbvh::{TraceOptions, Tracer, Tree};
+use harness::methods::{METHODS, tree_options};
+use libtest_mimic::{Failed, Trial};
+use metaball_core::gpu::Gpu;
+
+use super::agreement::{pass, terms_of};
+use super::gallery::{picture, room};
+use super::{on_gpu, scenes};
+use crate::promise::promise_of;
+
+pub(super) fn trials() -> Vec<Trial> {
+    let traced = METHODS.iter().filter(|method| tree_options(method.name).is_some());
+    traced
+        .flat_map(|method| scenes().map(move |scene| (scene, method.name)))
+        .map(|(scene, method)| {
+            let name = format!("twins::{scene}::{method}");
+            on_gpu(name, move |gpu| hit_for_hit(gpu, scene, method))
+        })
+        .collect()
+}
+
+/// The CPU's hits keep the promise of the method, and are the shader's wherever it promises any.
+fn hit_for_hit(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(), Failed> {
+    let room = room(gpu, scene)?;
+    let options = tree_options(method).ok_or("the method has no tree")?;
+    let tree = Tree::build(&room.scene.scene, &options)?;
+    let tracer = Tracer::new(&tree, &room.scene.scene, TraceOptions::DEFAULT);
+    let hits = tracer.first_hits(room.exam.rays());
+    pass(&room.exam.judge(&hits, &terms_of(method)))?;
+    let promise = promise_of(method);
+    pass(&room.exam.compare((&hits, promise), (&picture(gpu, scene, method)?, promise)))
+}
