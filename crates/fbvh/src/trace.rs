@@ -94,14 +94,13 @@ impl<'a, F: Field> Tracer<'a, F> {
             let normal = self.normal(leaf, ray, 0.0);
             return Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal };
         }
-        let found = match self.tree.kind {
-            Kind::ModifiedBvh => self.nearest_of_all(ray, counter),
-            Kind::Fitted | Kind::Certified => {
-                self.first_in_order(ray, counter, |leaf, stretch, counter| {
-                    let t = self.search_all(leaf, ray, stretch, counter)?;
-                    Some((leaf, t))
-                })
-            }
+        let found = if self.tree.kind == Kind::ModifiedBvh {
+            self.nearest_of_all(ray, counter)
+        } else {
+            self.first_in_order(ray, counter, |leaf, stretch, counter| {
+                let t = self.search_all(leaf, ray, stretch, counter)?;
+                Some((leaf, t))
+            })
         };
         found.map_or(Hit::MISS, |(leaf, t)| {
             let normal = self.normal(leaf, ray, t);

@@ -14,7 +14,7 @@ const METHOD: &str = "fbvh";
 const SCENE: &str = "random-200";
 
 /// A way to spoil a picture.
-type Spoil = fn(&mut Vec<Hit>);
+pub(super) type Spoil = fn(&mut Vec<Hit>);
 
 pub(super) fn trials() -> Vec<Trial> {
     let spoilt: [(&str, Spoil); 5] = [
@@ -37,7 +37,7 @@ pub(super) fn trials() -> Vec<Trial> {
     let mut trials: Vec<_> = spoilt
         .into_iter()
         .map(|(name, spoil)| {
-            on_gpu(format!("canary::{name}"), move |gpu| rejects_spoilt(gpu, spoil))
+            on_gpu(format!("canary::{name}"), move |gpu| rejects_spoilt(gpu, SCENE, METHOD, spoil))
         })
         .collect();
     trials.push(on_gpu("canary::missing_ball".to_owned(), rejects_a_missing_ball));
@@ -45,12 +45,18 @@ pub(super) fn trials() -> Vec<Trial> {
     trials
 }
 
-fn rejects_spoilt(gpu: &Gpu, spoil: Spoil) -> Result<(), Failed> {
-    let room = room(gpu, SCENE)?;
-    let mut hits = picture(gpu, SCENE, METHOD)?.to_vec();
-    pass(&room.exam.judge(&hits, &terms_of(METHOD)))?;
+/// A known scene's picture by the method passes, and no longer when it is spoilt.
+pub(super) fn rejects_spoilt(
+    gpu: &Gpu,
+    scene: &'static str,
+    method: &'static str,
+    spoil: Spoil,
+) -> Result<(), Failed> {
+    let room = room(gpu, scene)?;
+    let mut hits = picture(gpu, scene, method)?.to_vec();
+    pass(&room.exam.judge(&hits, &terms_of(method)))?;
     spoil(&mut hits);
-    match pass(&room.exam.judge(&hits, &terms_of(METHOD))) {
+    match pass(&room.exam.judge(&hits, &terms_of(method))) {
         Ok(()) => Err("the spoilt picture passed".into()),
         Err(_) => Ok(()),
     }

@@ -2,20 +2,17 @@
 //! becomes of more separators than an array holds.
 
 use libtest_mimic::{Failed, Trial};
-use metaball_core::Hit;
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 
 use super::agreement::{pass, terms_of};
-use super::gallery::{picture, room};
+use super::canaries::{Spoil, rejects_spoilt};
+use super::gallery::room;
 use super::{SIZE, draw, on_gpu, renderer, view_of};
 use crate::judge::Exam;
 
 const METHOD: &str = "illes";
 const SCENE: &str = "random-200";
-
-/// A way to spoil a picture.
-type Spoil = fn(&mut [Hit]);
 
 pub(super) fn trials() -> Vec<Trial> {
     let spoilt: [(&str, Spoil); 3] = [
@@ -26,7 +23,9 @@ pub(super) fn trials() -> Vec<Trial> {
     let mut trials: Vec<_> = spoilt
         .into_iter()
         .map(|(name, spoil)| {
-            on_gpu(format!("stand_in::rejects_{name}"), move |gpu| rejects(gpu, spoil))
+            on_gpu(format!("stand_in::rejects_{name}"), move |gpu| {
+                rejects_spoilt(gpu, SCENE, METHOD, spoil)
+            })
         })
         .collect();
     trials.push(on_gpu("stand_in::most_rays_are_promised".to_owned(), most_rays_are_promised));
@@ -35,17 +34,6 @@ pub(super) fn trials() -> Vec<Trial> {
         trials.push(on_gpu(name, move |gpu| crowd(gpu, method, is_marked)));
     }
     trials
-}
-
-fn rejects(gpu: &Gpu, spoil: Spoil) -> Result<(), Failed> {
-    let room = room(gpu, SCENE)?;
-    let mut hits = picture(gpu, SCENE, METHOD)?.to_vec();
-    pass(&room.exam.judge(&hits, &terms_of(METHOD)))?;
-    spoil(&mut hits);
-    match pass(&room.exam.judge(&hits, &terms_of(METHOD))) {
-        Ok(()) => Err("the spoilt picture passed".into()),
-        Err(_) => Ok(()),
-    }
 }
 
 /// A promise that holds for few rays is none.
