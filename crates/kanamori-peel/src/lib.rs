@@ -71,5 +71,5 @@ mod renderer;
 #[cfg(test)]
 mod tests;
 
-pub use options::Options;
+pub use options::{Clipping, Options, Outline, Registration};
 pub use renderer::Renderer;

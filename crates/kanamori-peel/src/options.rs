@@ -2,20 +2,63 @@
 
 use metaball_core::gpu::{Gpu, RenderError};
 
+/// What is rasterised for a ball (section 5.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Outline {
+    /// The smallest upright rectangle around the ball on the picture (appendix B).
+    Rectangle,
+    /// A polyhedron around the ball, 128 triangles: what the rectangle replaces.
+    Tessellation,
+}
+
+/// How the first root of an interval is found (section 5.4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Clipping {
+    /// The paper's: a curve with several changes of sign is split before it is clipped, and only
+    /// halves that reach the axis wait on a short stack.
+    ShortStack,
+    /// What the paper compares with: nothing waits. A curve that clipping does not narrow is cut in
+    /// two, and the right half is made again from the whole curve once the left is done with.
+    Iterative,
+    /// Nishita, Sederberg and Kakimoto 1990: every curve is clipped first and split where that does
+    /// not narrow it, with a stack as deep as can be needed.
+    Original,
+}
+
+/// Where balls are sorted into the picture's tiles (section 5.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Registration {
+    /// On the host, as published. Balls that culling leaves out are registered, too: the host does
+    /// not wait for the device to name them.
+    Host,
+    /// On the device, culled balls left out.
+    Device,
+}
+
 /// Settings; the default is the published method with the paper's own numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// K, the balls that a ray's list holds: 1 to 30, as far as the adapter's targets go. The
     /// paper's four targets hold 14 (section 4.2).
     pub list_capacity: u32,
+    /// What is rasterised for a ball. It bears on time alone.
+    pub outline: Outline,
+    /// Whether balls hidden by kernel spheres are left out (section 5.2). It bears on time, and on
+    /// t within the threshold.
+    pub culling: bool,
+    /// Tiles on a side of the picture's grid, each peeled until it ends, 1 to 16. The paper has 8 for
+    /// 640 × 480 and 16 for 1024 × 768 (section 5.3). It bears on time alone.
+    pub tiles: u32,
+    /// Where balls are sorted into tiles. It bears on time alone.
+    pub registration: Registration,
+    /// How an interval is searched.
+    pub clipping: Clipping,
     /// Width at which a range is a root, in parts of an interval between two points of a ray: 1e-6
     /// to 0.5. The paper prints 10e−4 (section 5.4).
     pub threshold: f32,
-    /// Ranges that can wait while clipping, 1 to 4; the paper's is 3 (section 5.4). It bears on
+    /// Ranges that can wait on the short stack, 1 to 4; the paper's is 3 (section 5.4). It bears on
     /// time alone.
     pub stack_size: u32,
-    /// Whether balls hidden by kernel spheres are left out (section 5.2).
-    pub culling: bool,
     /// Whether points with one t are told apart by their balls' indices, so that none is lost where
     /// several coincide (section 7, figure 9a). Not in the paper. Takes the place of one ball in the
     /// list.
@@ -26,9 +69,13 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             list_capacity: 14,
+            outline: Outline::Rectangle,
+            culling: true,
+            tiles: 8,
+            registration: Registration::Host,
+            clipping: Clipping::ShortStack,
             threshold: 1e-3,
             stack_size: 3,
-            culling: true,
             distinct_points: false,
         }
     }
@@ -36,6 +83,9 @@ impl Default for Options {
 
 /// Bytes of a pixel of one target: four f32.
 const TARGET_BYTES: u32 = 16;
+
+/// Tiles on a side of the picture's grid at most: `MOST_TILES` of `tiles.wgsl` is its square.
+pub(crate) const MOST_TILES: u32 = 16;
 
 impl Options {
     /// As robust as lists of a fixed length can be: no point is lost, and eight targets hold 29
@@ -68,6 +118,10 @@ impl Options {
             return refused(format!(
                 "list capacity: needed 1 to {longest} on this adapter, found {found}"
             ));
+        }
+        if !(1..=MOST_TILES).contains(&self.tiles) {
+            let found = self.tiles;
+            return refused(format!("tiles on a side: needed 1 to {MOST_TILES}, found {found}"));
         }
         if !(1e-6..=0.5).contains(&self.threshold) {
             let found = self.threshold;
