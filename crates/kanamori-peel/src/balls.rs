@@ -1,9 +1,7 @@
 //! What the method keeps of a scene on the device.
 
-use std::mem::offset_of;
-
 use bytemuck::{Pod, Zeroable};
-use metaball_core::gpu::{Gpu, RenderError, SceneBuffers};
+use metaball_core::gpu::{Gpu, RenderError, SceneBuffers, bind_group};
 use metaball_core::{Aabb, Scene, View};
 
 use crate::pipelines::Layouts;
@@ -11,8 +9,9 @@ use crate::pipelines::Layouts;
 /// Balls of a workgroup of the passes over balls: `LANES` of `arrange.wgsl`.
 const LANES: u32 = 256;
 
-/// The most balls: one workgroup a block, and indices that f32 keeps exactly.
-pub(crate) const MOST_BALLS: usize = 65_535 * LANES as usize;
+/// The most balls: indices that f32 keeps exactly, and one loop of `register.wgsl` over their
+/// workgroups, which software Vulkan ends after 65,535 iterations.
+pub(crate) const MOST_BALLS: usize = 65_000 * LANES as usize;
 
 /// WGSL's `Peeling` of `frame.wgsl`.
 #[repr(C)]
@@ -22,13 +21,13 @@ pub(crate) struct Peeling {
     pub(crate) depth_scale: f32,
 }
 
-/// A ball on the picture: WGSL's `Placed` of `rectangle.wgsl`.
+/// A ball on the picture: WGSL's `Placed` of `placed.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(crate) struct Placed {
     /// Lower left corner, clip space.
     pub(crate) low: [f32; 2],
-    /// Upper right corner; equal to the other where nothing is to be seen.
+    /// Upper right corner; equal to the other where the ball is not to be drawn.
     pub(crate) high: [f32; 2],
     /// 1 where the support holds the eye.
     pub(crate) around: u32,
@@ -36,11 +35,13 @@ pub(crate) struct Placed {
     pub(crate) padding: u32,
 }
 
-/// The head of WGSL's `Arranged` of `arranged.wgsl`; the balls to draw follow.
+/// WGSL's `Arranged` of `arranged.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub(crate) struct ArrangedHead {
-    /// Balls to draw.
+pub(crate) struct Arranged {
+    /// Balls whose rectangles are in the picture.
+    pub(crate) in_view: u32,
+    /// Those of them that are drawn.
     pub(crate) drawn: u32,
     /// Balls around the eye.
     pub(crate) around: u32,
@@ -48,27 +49,18 @@ pub(crate) struct ArrangedHead {
     pub(crate) around_balls: [u32; 30],
 }
 
-/// Two indirect draws: the balls, and the tiles. Each is the number of vertices, of instances, and
-/// the first of both.
-const NO_DRAWS: [u32; 8] = [4, 0, 0, 0, 4, 0, 0, 0];
-
-/// Buffers of one scene, and the two groups 2 that bind them.
+/// Buffers of one scene.
 pub(crate) struct Balls {
     pub(crate) scene: SceneBuffers,
     pub(crate) count: u32,
+    /// Group 2 of the passes over balls.
     pub(crate) arranging: wgpu::BindGroup,
-    pub(crate) drawing: wgpu::BindGroup,
-    /// What indirect draws read.
-    pub(crate) arguments: wgpu::Buffer,
-    #[cfg(test)]
+    pub(crate) peeling: wgpu::Buffer,
     pub(crate) placed: wgpu::Buffer,
+    pub(crate) seen: wgpu::Buffer,
+    pub(crate) arranged: wgpu::Buffer,
+    pub(crate) kernel_radii: wgpu::Buffer,
     bounds: Aabb,
-    peeling: wgpu::Buffer,
-    seen: wgpu::Buffer,
-    arranged: wgpu::Buffer,
-    /// What shaders write for the next layer.
-    draws: wgpu::Buffer,
-    no_draws: wgpu::Buffer,
     own_bytes: u64,
 }
 
@@ -84,36 +76,13 @@ impl Balls {
         let of_balls = |what, each: usize| gpu.storage(what, count.max(1) * each as u64, none);
         let placed = of_balls("placed balls", size_of::<Placed>())?;
         let seen = of_balls("balls seen", size_of::<u32>())?;
-        let head = size_of::<ArrangedHead>() as u64;
-        let arranged = gpu.storage("arranged balls", head + 4 * count.max(1), none)?;
-        let blocks = gpu.storage("blocks", 8 * count.div_ceil(LANES.into()).max(1), none)?;
-        let draws = gpu.upload("next draws", &NO_DRAWS, none)?;
-        let no_draws = gpu.upload("no draws", &NO_DRAWS, none)?;
-        let arguments = gpu.storage("draws", draws.size(), wgpu::BufferUsages::INDIRECT)?;
+        let arranged = gpu.storage("arranged balls", size_of::<Arranged>() as u64, none)?;
+        let blocks = gpu.storage("blocks", 16 * count.div_ceil(LANES.into()).max(1), none)?;
         let peeling =
             gpu.storage("peeling", size_of::<Peeling>() as u64, wgpu::BufferUsages::UNIFORM)?;
-
-        let group = |label, layout, buffers: &[&wgpu::Buffer]| {
-            let entries: Vec<_> = (0u32..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(label),
-                layout,
-                entries: &entries,
-            })
-        };
-        let (arranging, drawing) = gpu.checked(|| {
-            let arranging = [&peeling, &placed, &seen, &arranged, &blocks, &draws];
-            let drawing = [&peeling, &placed, &arranged, &kernel_radii, &seen, &draws];
-            (
-                group("kanamori arranging", &layouts.arranging, &arranging),
-                group("kanamori drawing", &layouts.drawing, &drawing),
-            )
+        let arranging = gpu.checked(|| {
+            let buffers = [(1, &placed), (2, &seen), (3, &arranged), (4, &blocks)];
+            bind_group(gpu, "kanamori arranging", &layouts.arranging, &buffers)
         })?;
         let own = [&kernel_radii, &placed, &seen, &arranged, &blocks];
         Ok(Self {
@@ -122,15 +91,11 @@ impl Balls {
             count: scene.len() as u32,
             bounds: scene.bounds(),
             arranging,
-            drawing,
-            arguments,
-            #[cfg(test)]
-            placed,
             peeling,
+            placed,
             seen,
             arranged,
-            draws,
-            no_draws,
+            kernel_radii,
         })
     }
 
@@ -144,10 +109,9 @@ impl Balls {
         4 * u64::from(self.count)
     }
 
-    /// Balls that the last frame drew.
-    pub(crate) fn drawn(&self, gpu: &Gpu) -> Result<u32, RenderError> {
-        let words: Vec<u32> = gpu.read(&self.arranged)?;
-        Ok(words[offset_of!(ArrangedHead, drawn) / size_of::<u32>()])
+    /// What the last frame made of the balls.
+    pub(crate) fn arranged(&self, gpu: &Gpu) -> Result<Arranged, RenderError> {
+        Ok(gpu.read(&self.arranged)?[0])
     }
 
     /// Workgroups of a pass over the balls.
@@ -165,12 +129,6 @@ impl Balls {
         let peeling = Peeling { depth_scale: depth_scale(&self.bounds, view) };
         encoder.clear_buffer(&self.seen, 0, None);
         gpu.checked(|| gpu.queue.write_buffer(&self.peeling, 0, bytemuck::bytes_of(&peeling)))
-    }
-
-    /// Makes the draws of the next layer those that shaders asked for since the last call.
-    pub(crate) fn take_draws(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.copy_buffer_to_buffer(&self.draws, 0, &self.arguments, 0, self.draws.size());
-        encoder.copy_buffer_to_buffer(&self.no_draws, 0, &self.draws, 0, self.draws.size());
     }
 }
 

@@ -1,14 +1,10 @@
 //! What peeling keeps for each pixel: two sets of lists that change places after every layer.
 
-use metaball_core::NO_LIMIT;
-use metaball_core::gpu::{Gpu, RenderError};
+use metaball_core::gpu::{Gpu, RenderError, bind_group};
 
 use crate::pipelines::{DEPTH_FORMAT, LIST_FORMAT, Layouts, POINT_FORMAT};
 
-/// Pixels on a side of a tile: `TILE` of `tile.wgsl`.
-const TILE: u32 = 16;
-
-/// Textures and flags of one picture size.
+/// Textures of one picture size.
 pub(crate) struct Layers {
     pub(crate) size: (u32, u32),
     lists: [ListSet; 2],
@@ -22,8 +18,6 @@ pub(crate) struct Layers {
 /// ListBufA or ListBufB of the paper's figure 6, with the groups 3 of the passes that read it.
 struct ListSet {
     targets: Vec<wgpu::TextureView>,
-    /// Which tiles have a ray left.
-    tiles: wgpu::Buffer,
     peeling: wgpu::BindGroup,
     testing: wgpu::BindGroup,
 }
@@ -53,13 +47,10 @@ impl Layers {
             })
         };
         let plain = |label, format| texture(label, format, 1).create_view(&Default::default());
-        let tiles = u64::from(width.div_ceil(TILE)) * u64::from(height.div_ceil(TILE));
-        let flags = || gpu.storage("tiles left", 4 * tiles, wgpu::BufferUsages::empty());
-        let tiles = [flags()?, flags()?];
         gpu.checked(|| {
             let points = plain("peeled points", POINT_FORMAT);
             let kernel_depth = plain("kernel spheres", DEPTH_FORMAT);
-            let list_set = |label, own: usize| {
+            let list_set = |label| {
                 let lists = texture(label, LIST_FORMAT, targets);
                 let all = lists.create_view(&wgpu::TextureViewDescriptor {
                     dimension: Some(wgpu::TextureViewDimension::D2Array),
@@ -75,26 +66,20 @@ impl Layers {
                 };
                 ListSet {
                     targets: (0..targets).map(layer).collect(),
-                    peeling: group(gpu, &layouts.peeling, &[view(&all)]),
-                    testing: group(
+                    peeling: bind_group(gpu, label, &layouts.peeling, &[(0, &all)]),
+                    testing: bind_group(
                         gpu,
+                        label,
                         &layouts.testing,
-                        &[
-                            view(&all),
-                            view(&points),
-                            view(&kernel_depth),
-                            tiles[own].as_entire_binding(),
-                            tiles[1 - own].as_entire_binding(),
-                        ],
+                        &[(0, &all), (1, &points), (2, &kernel_depth)],
                     ),
-                    tiles: tiles[own].clone(),
                 }
             };
             Self {
                 size: (width, height),
-                lists: [list_set("lists A", 0), list_set("lists B", 1)],
+                lists: [list_set("lists A"), list_set("lists B")],
                 point_depth: plain("peeled depth", DEPTH_FORMAT),
-                seeing: group(gpu, &layouts.seeing, &[view(&kernel_depth)]),
+                seeing: bind_group(gpu, "kernel depth", &layouts.seeing, &[(0, &kernel_depth)]),
                 points,
                 kernel_depth,
             }
@@ -113,7 +98,7 @@ impl Layers {
 
     /// TmpTex of figure 6, no point anywhere.
     pub(crate) fn points(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-        Some(target(&self.points, wgpu::Color::TRANSPARENT))
+        Some(target(&self.points, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))
     }
 
     /// Nearest first.
@@ -121,19 +106,14 @@ impl Layers {
         depth(&self.point_depth, Some(1.0))
     }
 
-    /// Empties the flags of the lists before a layer, which are about to be written.
-    pub(crate) fn clear_tiles(&self, encoder: &mut wgpu::CommandEncoder, layer: u32) {
-        encoder.clear_buffer(&self.lists[layer as usize % 2].tiles, 0, None);
-    }
-
-    /// The lists before a layer, to be written. Rays of tiles that are left out have their answer.
+    /// The lists before a layer, to be written where a tile has a ray without an answer. Nobody
+    /// reads the others.
     pub(crate) fn written_before(
         &self,
         layer: u32,
     ) -> Vec<Option<wgpu::RenderPassColorAttachment<'_>>> {
-        let answered = wgpu::Color { r: NO_LIMIT.into(), ..wgpu::Color::TRANSPARENT };
         let targets = self.lists[layer as usize % 2].targets.iter();
-        targets.map(|view| Some(target(view, answered))).collect()
+        targets.map(|view| Some(target(view, wgpu::LoadOp::Load))).collect()
     }
 
     /// Group 3 of the peeling pass of a layer.
@@ -147,12 +127,15 @@ impl Layers {
     }
 }
 
-fn target(view: &wgpu::TextureView, clear: wgpu::Color) -> wgpu::RenderPassColorAttachment<'_> {
+fn target(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
         resolve_target: None,
-        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store },
+        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
     }
 }
 
@@ -169,24 +152,4 @@ fn depth(
         }),
         stencil_ops: None,
     }
-}
-
-fn view(view: &wgpu::TextureView) -> wgpu::BindingResource<'_> {
-    wgpu::BindingResource::TextureView(view)
-}
-
-fn group(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    resources: &[wgpu::BindingResource<'_>],
-) -> wgpu::BindGroup {
-    let entries: Vec<_> = (0u32..)
-        .zip(resources)
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
-        .collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("kanamori layers"),
-        layout,
-        entries: &entries,
-    })
 }

@@ -70,6 +70,7 @@ mod pipelines;
 mod renderer;
 #[cfg(test)]
 mod tests;
+mod tiles;
 
 pub use options::{Clipping, Options, Outline, Registration};
 pub use renderer::Renderer;

@@ -2,10 +2,11 @@
 
 use metaball_core::Kernel;
 use metaball_core::gpu::{
-    Gpu, RenderError, Shader, Specialization, frame_layout, pipeline_layout, scene_layout,
+    Binding, Gpu, RenderError, Shader, Specialization, bind_group_layout, frame_layout,
+    pipeline_layout, scene_layout,
 };
 
-use crate::Options;
+use crate::{Clipping, Options, Outline};
 
 /// Lists of active balls: "32-bit floats" of section 4.2.
 pub(crate) const LIST_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
@@ -14,12 +15,14 @@ pub(crate) const POINT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Fl
 /// Distances times a power of two: exact.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Bind group layouts: groups 0 and 1 of all passes, then the two that group 2 can have, then the
+/// Bind group layouts: groups 0 and 1 of all passes, then the four that group 2 can be, then the
 /// three of group 3.
 pub(crate) struct Layouts {
     frame: wgpu::BindGroupLayout,
     scene: wgpu::BindGroupLayout,
     pub(crate) arranging: wgpu::BindGroupLayout,
+    pub(crate) registering: wgpu::BindGroupLayout,
+    pub(crate) turning: wgpu::BindGroupLayout,
     pub(crate) drawing: wgpu::BindGroupLayout,
     pub(crate) seeing: wgpu::BindGroupLayout,
     pub(crate) peeling: wgpu::BindGroupLayout,
@@ -34,6 +37,10 @@ pub(crate) struct Pipelines {
     pub(crate) count: wgpu::ComputePipeline,
     pub(crate) total: wgpu::ComputePipeline,
     pub(crate) spread: wgpu::ComputePipeline,
+    pub(crate) tally: wgpu::ComputePipeline,
+    pub(crate) assign: wgpu::ComputePipeline,
+    pub(crate) fill: wgpu::ComputePipeline,
+    pub(crate) turn: wgpu::ComputePipeline,
     pub(crate) kernels: wgpu::RenderPipeline,
     pub(crate) see: wgpu::RenderPipeline,
     pub(crate) begin: wgpu::RenderPipeline,
@@ -42,18 +49,74 @@ pub(crate) struct Pipelines {
     pub(crate) account: wgpu::ComputePipeline,
 }
 
-/// What depends on the kernel: the module with its Bernstein form, and that module's constants.
-/// `None` for a kernel that is no polynomial along a ray.
-pub(crate) fn bernstein(kernel: Kernel) -> Option<(&'static [&'static str], Option<f64>)> {
+/// What the search of an interval depends on: the modules with the kernel's Bernstein form and with
+/// the way of clipping, and the former's constants. `None` for a kernel that is no polynomial along a
+/// ray.
+pub(crate) fn searching(
+    kernel: Kernel,
+    clipping: Clipping,
+) -> Option<(&'static [&'static str], Option<f64>)> {
+    const SHORT_STACK: &str = "kanamori_peel/clipping_short_stack";
+    const ITERATIVE: &str = "kanamori_peel/clipping_iterative";
+    const ORIGINAL: &str = "kanamori_peel/clipping_original";
+    macro_rules! with {
+        ($form:literal) => {
+            match clipping {
+                Clipping::ShortStack => &[$form, SHORT_STACK],
+                Clipping::Iterative => &[$form, ITERATIVE],
+                Clipping::Original => &[$form, ORIGINAL],
+            }
+        };
+    }
     match kernel {
-        Kernel::QUARTIC => Some((&["kanamori_peel/quartic"], None)),
+        Kernel::QUARTIC => Some((with!("kanamori_peel/quartic"), None)),
         Kernel::Power(exponent) => {
-            Some((&["kanamori_peel/power"], Some(f64::from(exponent.get()))))
+            Some((with!("kanamori_peel/power"), Some(f64::from(exponent.get()))))
         }
-        Kernel::Wyvill => Some((&["kanamori_peel/wyvill"], None)),
+        Kernel::Wyvill => Some((with!("kanamori_peel/wyvill"), None)),
         Kernel::Perlin => None,
     }
 }
+
+impl Outline {
+    /// The WGSL module to choose.
+    fn modules(self) -> &'static [&'static str] {
+        match self {
+            Self::Rectangle => &["kanamori_peel/outline_rectangle"],
+            Self::Tessellation => &["kanamori_peel/outline_tessellation"],
+        }
+    }
+
+    /// Vertices of a ball: `VERTICES` of the module.
+    pub(crate) fn vertices(self) -> u32 {
+        match self {
+            Self::Rectangle => 4,
+            Self::Tessellation => 384,
+        }
+    }
+
+    fn triangles(self) -> wgpu::PrimitiveState {
+        match self {
+            Self::Rectangle => STRIP,
+            Self::Tessellation => wgpu::PrimitiveState {
+                topology: wgpu::PrimitiveTopology::TriangleList,
+                cull_mode: Some(wgpu::Face::Front),
+                ..wgpu::PrimitiveState::default()
+            },
+        }
+    }
+}
+
+/// Two triangles of four vertices.
+const STRIP: wgpu::PrimitiveState = wgpu::PrimitiveState {
+    topology: wgpu::PrimitiveTopology::TriangleStrip,
+    strip_index_format: None,
+    front_face: wgpu::FrontFace::Ccw,
+    cull_mode: None,
+    unclipped_depth: false,
+    polygon_mode: wgpu::PolygonMode::Fill,
+    conservative: false,
+};
 
 /// A raster pipeline in short.
 struct Raster<'a> {
@@ -61,6 +124,7 @@ struct Raster<'a> {
     shader: &'a Shader,
     vertex: &'static str,
     fragment: &'static str,
+    triangles: wgpu::PrimitiveState,
     constants: &'a [(&'a str, f64)],
     layouts: &'a [&'a wgpu::BindGroupLayout],
     targets: &'a [Option<wgpu::ColorTargetState>],
@@ -81,7 +145,7 @@ impl Pipelines {
         specialization: Specialization,
         options: &Options,
     ) -> Result<Self, RenderError> {
-        let Some((modules, exponent)) = bernstein(specialization.kernel) else {
+        let Some((modules, exponent)) = searching(specialization.kernel, options.clipping) else {
             let kernel = specialization.kernel;
             return Err(RenderError::Unsupported {
                 method,
@@ -91,41 +155,56 @@ impl Pipelines {
                 ),
             });
         };
-        let spec = specialization.choosing(modules);
+        let spec = specialization.choosing(options.outline.modules());
         let layouts = Layouts::new(gpu, &specialization)?;
         let shader = |module| Shader::new(gpu, module, module, &spec);
-        let (arrange, kernels) =
-            (shader("kanamori_peel/arrange")?, shader("kanamori_peel/kernels")?);
-        let (peel, test) = (shader("kanamori_peel/peel")?, shader("kanamori_peel/test")?);
+        let (arrange, register) =
+            (shader("kanamori_peel/arrange")?, shader("kanamori_peel/register")?);
+        let (turn, kernels) = (shader("kanamori_peel/turn")?, shader("kanamori_peel/kernels")?);
+        let peel = shader("kanamori_peel/peel")?;
+        let test = Shader::new(gpu, "test", "kanamori_peel/test", &spec.choosing(modules))?;
 
         // The ids of the override constants in the modules.
-        let culling = [("32", f64::from(u8::from(options.culling)))];
-        let mut searching = vec![
-            ("33", f64::from(options.threshold)),
-            ("34", f64::from(options.stack_size)),
-            ("35", f64::from(options.list_capacity)),
-        ];
+        let culling = ("32", f64::from(u8::from(options.culling)));
         let distinct = ("37", f64::from(u8::from(options.distinct_points)));
-        searching.push(distinct);
+        let tiles = ("38", f64::from(options.tiles));
+        let mut searching = vec![
+            culling,
+            ("33", f64::from(options.threshold)),
+            ("35", f64::from(options.list_capacity)),
+            distinct,
+            tiles,
+        ];
+        if options.clipping == Clipping::ShortStack {
+            searching.push(("34", f64::from(options.stack_size)));
+        }
         searching.extend(exponent.map(|exponent| ("36", exponent)));
 
-        let balls = [&layouts.frame, &layouts.scene, &layouts.arranging];
-        let over_balls = |entry| arrange.compute(gpu, entry, entry, &spec, &balls, &culling);
+        let [frame, scene, drawing] = [&layouts.frame, &layouts.scene, &layouts.drawing];
+        let bottom = [frame, scene, drawing];
+        let compute = |shader: &Shader, entry, group, constants: &[_]| {
+            shader.compute(gpu, entry, entry, &spec, &[frame, scene, group], constants)
+        };
+        let over_balls = |entry| compute(&arrange, entry, &layouts.arranging, &[culling]);
+        let over_tiles = |entry| compute(&register, entry, &layouts.registering, &[tiles]);
         let raster = |pass| raster_pipeline(gpu, &spec, &pass);
         let lists = vec![Some(LIST_FORMAT.into()); options.targets() as usize];
-        let bottom = [&layouts.frame, &layouts.scene, &layouts.drawing];
-        let [frame, scene, drawing] = bottom;
         Ok(Self {
             specialization,
             place: over_balls("place")?,
             count: over_balls("count")?,
             total: over_balls("total")?,
             spread: over_balls("spread")?,
+            tally: over_tiles("tally")?,
+            assign: over_tiles("assign")?,
+            fill: over_tiles("fill")?,
+            turn: compute(&turn, "turn", &layouts.turning, &[])?,
             kernels: raster(Raster {
                 label: "kernel spheres",
                 shader: &kernels,
                 vertex: "bound_kernel",
                 fragment: "kernel_sphere",
+                triangles: options.outline.triangles(),
                 constants: &[],
                 layouts: &bottom,
                 targets: &[],
@@ -136,6 +215,7 @@ impl Pipelines {
                 shader: &kernels,
                 vertex: "bound_ball",
                 fragment: "mark_seen",
+                triangles: options.outline.triangles(),
                 constants: &[],
                 layouts: &[frame, scene, drawing, &layouts.seeing],
                 targets: &[],
@@ -146,6 +226,7 @@ impl Pipelines {
                 shader: &test,
                 vertex: "cover_picture",
                 fragment: "begin",
+                triangles: STRIP,
                 constants: &searching,
                 layouts: &[frame, scene, drawing, &layouts.testing],
                 targets: &lists,
@@ -156,6 +237,7 @@ impl Pipelines {
                 shader: &peel,
                 vertex: "bound_ball",
                 fragment: "next_point",
+                triangles: options.outline.triangles(),
                 constants: &[distinct],
                 layouts: &[frame, scene, drawing, &layouts.peeling],
                 targets: &[Some(POINT_FORMAT.into())],
@@ -166,6 +248,7 @@ impl Pipelines {
                 shader: &test,
                 vertex: "cover_tile",
                 fragment: "test_layer",
+                triangles: STRIP,
                 constants: &searching,
                 layouts: &[frame, scene, drawing, &layouts.testing],
                 targets: &lists,
@@ -179,72 +262,43 @@ impl Pipelines {
 
 impl Layouts {
     fn new(gpu: &Gpu, spec: &Specialization) -> Result<Self, RenderError> {
-        use wgpu::{
-            BindingType, BufferBindingType, ShaderStages, TextureSampleType, TextureViewDimension,
-        };
-        let layout = |label, entries: &[(ShaderStages, BindingType)]| {
-            let entries: Vec<_> = (0u32..)
-                .zip(entries)
-                .map(|(binding, &(visibility, ty))| wgpu::BindGroupLayoutEntry {
-                    binding,
-                    visibility,
-                    ty,
-                    count: None,
-                })
-                .collect();
-            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries: &entries,
-            })
-        };
-        let buffer =
-            |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-        let uniform = buffer(BufferBindingType::Uniform);
-        let read = buffer(BufferBindingType::Storage { read_only: true });
-        let write = buffer(BufferBindingType::Storage { read_only: false });
-        let texture = |sample_type, view_dimension| BindingType::Texture {
-            sample_type,
-            view_dimension,
-            multisampled: false,
-        };
-        let exact = TextureSampleType::Float { filterable: false };
-        let lists = texture(exact, TextureViewDimension::D2Array);
-        let points = texture(exact, TextureViewDimension::D2);
-        let depth = texture(TextureSampleType::Depth, TextureViewDimension::D2);
-        let (compute, fragment) = (ShaderStages::COMPUTE, ShaderStages::FRAGMENT);
-        let both = ShaderStages::VERTEX_FRAGMENT;
+        use Binding::{Depth, Read, Texture, TextureArray, Uniform, Write};
+        let layout = |label, bindings: &[(u32, Binding)]| bind_group_layout(gpu, label, bindings);
         gpu.checked(|| Self {
             frame: frame_layout(gpu, spec),
             scene: scene_layout(gpu, spec),
-            // Constants, placed, seen, arranged, blocks, draws.
+            // Placed, seen, arranged, blocks.
             arranging: layout(
                 "kanamori arranging",
-                &[uniform, write, read, write, write, write].map(|ty| (compute, ty)),
+                &[(1, Write), (2, Read), (3, Write), (4, Write)],
             ),
-            // Constants, placed, arranged, kernel radii, seen, draws.
+            // Placed, tiles, registered, tallies.
+            registering: layout(
+                "kanamori registering",
+                &[(0, Read), (1, Write), (2, Write), (3, Write)],
+            ),
+            // Tiles, rays left, draws.
+            turning: layout("kanamori turning", &[(0, Write), (1, Write), (2, Write)]),
+            // Constants, placed, arranged, kernel radii, seen, tiles, registered, rays left.
             drawing: layout(
                 "kanamori drawing",
                 &[
-                    (both, uniform),
-                    (both, read),
-                    (both, read),
-                    (both, read),
-                    (fragment, write),
-                    (fragment, write),
+                    (0, Uniform),
+                    (1, Read),
+                    (2, Read),
+                    (3, Read),
+                    (4, Write),
+                    (5, Read),
+                    (6, Read),
+                    (7, Write),
                 ],
             ),
-            seeing: layout("kanamori seeing", &[(fragment, depth)]),
-            peeling: layout("kanamori peeling", &[(fragment, lists)]),
-            testing: layout(
-                "kanamori testing",
-                &[
-                    (fragment, lists),
-                    (fragment, points),
-                    (fragment, depth),
-                    (ShaderStages::VERTEX, read),
-                    (fragment, write),
-                ],
-            ),
+            // The nearest kernel spheres.
+            seeing: layout("kanamori seeing", &[(0, Depth)]),
+            // The lists.
+            peeling: layout("kanamori peeling", &[(0, TextureArray)]),
+            // The lists, the points, the nearest kernel spheres.
+            testing: layout("kanamori testing", &[(0, TextureArray), (1, Texture), (2, Depth)]),
         })
     }
 }
@@ -254,7 +308,8 @@ fn raster_pipeline(
     spec: &Specialization,
     pass: &Raster<'_>,
 ) -> Result<wgpu::RenderPipeline, RenderError> {
-    let Raster { label, shader, vertex, fragment, constants, layouts, targets, depth } = *pass;
+    let Raster { label, shader, vertex, fragment, triangles, constants, layouts, targets, depth } =
+        *pass;
     let constants = shader.constants(spec, constants);
     let options = || wgpu::PipelineCompilationOptions {
         constants: &constants,
@@ -270,10 +325,7 @@ fn raster_pipeline(
                 compilation_options: options(),
                 buffers: &[],
             },
-            primitive: wgpu::PrimitiveState {
-                topology: wgpu::PrimitiveTopology::TriangleStrip,
-                ..wgpu::PrimitiveState::default()
-            },
+            primitive: triangles,
             depth_stencil: depth.map(|depth| wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(depth == Depth::KeepNearest),

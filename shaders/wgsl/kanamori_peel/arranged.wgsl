@@ -1,19 +1,20 @@
-// What arrange.wgsl made, for the passes that draw.
+// What arrange.wgsl made and the tiles' balls, for the passes that draw.
 #define_import_path metaball::kanamori_peel::arranged
 
-#import metaball::kanamori_peel::rectangle::Placed
+#import metaball::kanamori_peel::placed::Placed
+#import metaball::kanamori_peel::tiles::Tile
 
 // The longest list of active balls that eight targets hold: 4 * 8 - 2.
 const MOST_ACTIVE: u32 = 30u;
 
+// Twin of `Arranged` in kanamori-peel.
 struct Arranged {
-    // Balls to draw.
+    // Balls whose rectangles are in the picture, and those of them that are drawn.
+    in_view: u32,
     drawn: u32,
     // Balls whose supports hold the eye; the first MOST_ACTIVE of them follow.
     around: u32,
     around_balls: array<u32, MOST_ACTIVE>,
-    // The balls to draw, by rising index.
-    balls: array<u32>,
 }
 
 @group(2) @binding(1) var<storage, read> placed: array<Placed>;
@@ -21,3 +22,6 @@ struct Arranged {
 // Radius of each ball's kernel sphere, in which it reaches the threshold alone; 0 where it never
 // does.
 @group(2) @binding(3) var<storage, read> kernel_radii: array<f32>;
+@group(2) @binding(5) var<storage, read> tiles: array<Tile>;
+// Balls of the tiles, one tile after the other, by rising index in each.
+@group(2) @binding(6) var<storage, read> registered: array<u32>;

@@ -4,7 +4,7 @@
 #import metaball::kanamori_peel::arranged::{kernel_radii, placed}
 #import metaball::kanamori_peel::chord::chord_of
 #import metaball::kanamori_peel::frame::{from_depth, to_depth}
-#import metaball::kanamori_peel::rectangle::corner_of
+#import metaball::kanamori_peel::outline::outline
 #import metaball::scene::supports
 #import metaball::view::{pixel_at, rays, view}
 
@@ -18,17 +18,22 @@ struct Corner {
 
 @vertex
 fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) ball: u32) -> Corner {
-    return Corner(corner_of(placed[ball], vertex), ball);
+    return corner_of(ball, vertex);
 }
 
-// The rectangle of a support holds that of the kernel sphere.
+// The outline of a support holds that of the kernel sphere.
 @vertex
 fn bound_kernel(@builtin(vertex_index) vertex: u32, @builtin(instance_index) ball: u32) -> Corner {
-    let nowhere = Corner(vec4(0.0, 0.0, 0.5, 1.0), ball);
     if kernel_radii[ball] <= 0.0 {
-        return nowhere;
+        return Corner(vec4(0.0, 0.0, 0.5, 1.0), ball);
     }
-    return Corner(corner_of(placed[ball], vertex), ball);
+    return corner_of(ball, vertex);
+}
+
+fn corner_of(ball: u32, vertex: u32) -> Corner {
+    let support = supports[ball];
+    let to_center = support.center - view.eye;
+    return Corner(outline(vertex, placed[ball], to_center, support.radius), ball);
 }
 
 @fragment

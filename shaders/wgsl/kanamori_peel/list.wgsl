@@ -6,12 +6,13 @@
 #import metaball::hit
 #import metaball::kanamori_peel::arranged::{kernel_radii, MOST_ACTIVE}
 #import metaball::kanamori_peel::bernstein::{along_chord, Curve, degree}
+#import metaball::kanamori_peel::bezier::{LOST, NO_ROOT, part}
 #import metaball::kanamori_peel::chord::chord_of
-#import metaball::kanamori_peel::clipping::{first_root, LOST, NO_ROOT, part}
+#import metaball::kanamori_peel::clipping::first_root
 #import metaball::scene::{scene, supports}
 #import metaball::strength::strength
 #import metaball::view::{Ray, view}
-#import metaball::work::{count_balls, count_leaf_test}
+#import metaball::work::{count_balls, count_leaf_test, count_search_end}
 
 // Outcomes of a search beside distances.
 const NOTHING_FOUND: f32 = -1.0;
@@ -81,6 +82,7 @@ fn search_multiple(ray: Ray, low: f32, high: f32) -> f32 {
         }
     }
     let root = first_root(sum);
+    count_search_end();
     if root == NO_ROOT {
         return NOTHING_FOUND;
     }

@@ -1,10 +1,10 @@
 // One layer of depth peeling (section 4.1): of all supports, the nearest point beyond the last one
 // at which the ray enters or leaves.
 
-#import metaball::kanamori_peel::arranged::{arranged, placed}
+#import metaball::kanamori_peel::arranged::{placed, registered, tiles}
 #import metaball::kanamori_peel::chord::chord_of
 #import metaball::kanamori_peel::frame::to_depth
-#import metaball::kanamori_peel::rectangle::corner_of
+#import metaball::kanamori_peel::outline::{outline, VERTICES}
 #import metaball::scene::supports
 #import metaball::view::{pixel_at, rays, view}
 
@@ -32,13 +32,15 @@ struct Point {
     @builtin(frag_depth) depth: f32,
 }
 
+// The tile's number is in the first vertex, see turn.wgsl.
 @vertex
 fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index: u32) -> Corner {
-    let ball = arranged.balls[index];
+    let ball = registered[tiles[vertex / VERTICES].first + index];
     let support = supports[ball];
     let to_center = support.center - view.eye;
     let here = placed[ball];
-    return Corner(corner_of(here, vertex), to_center, support.radius, ball, here.around);
+    let position = outline(vertex % VERTICES, here, to_center, support.radius);
+    return Corner(position, to_center, support.radius, ball, here.around);
 }
 
 // Section 5.1: only the nearer of the two faces beyond the last point. A ball that the ray only

@@ -3,33 +3,32 @@
 
 #import metaball::hit
 #import metaball::kanamori_peel::list
-#import metaball::kanamori_peel::arranged::{arranged, MOST_ACTIVE}
+#import metaball::kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
 #import metaball::kanamori_peel::frame::from_depth
-#import metaball::kanamori_peel::tile::{corner_of_tile, tile_count, tile_of}
+#import metaball::kanamori_peel::tiles::{corner_of_tile, tile_of}
 #import metaball::status::report_unfinished
 #import metaball::view::{in_picture, NO_LIMIT, pixel_at, Ray, rays}
 #import metaball::work::{count_layers, write_work}
 
+// Whether kernel spheres were drawn, see arrange.wgsl.
+@id(32) override culling: bool = true;
 // K: the longest list. With what stands before it, it fills the targets at most.
 @id(35) override capacity: u32 = 14u;
 // Whether the last point's ball is kept, see peel.wgsl.
 @id(37) override by_index: bool = false;
 
-// The next layer's two indirect draws: four numbers each, the second is the number of instances.
-@group(2) @binding(5) var<storage, read_write> draws: array<atomic<u32>, 8>;
+// Set for each tile that has a ray without an answer after this layer.
+@group(2) @binding(7) var<storage, read_write> rays_left: array<u32>;
 
 // The lists before this layer, the layer's points (t and ball; t = 0 where there is none), and the
 // nearest kernel spheres.
 @group(3) @binding(0) var lists: texture_2d_array<f32>;
 @group(3) @binding(1) var points: texture_2d<f32>;
 @group(3) @binding(2) var kernel_depth: texture_depth_2d;
-// Not 0 for each tile that has a ray left: before this layer, and after it.
-@group(3) @binding(3) var<storage, read> tiles_before: array<u32>;
-@group(3) @binding(4) var<storage, read_write> tiles_after: array<u32>;
 
 // A list as the targets keep it, in order: t of the last point, the number of balls, where it is kept
-// the last point's ball, the balls. t is NO_LIMIT once the ray has its answer, and where nothing was
-// drawn since. What a pipeline has no target for goes nowhere.
+// the last point's ball, the balls. t is NO_LIMIT once the ray has its answer. What a pipeline has no
+// target for goes nowhere.
 struct Lists {
     @location(0) first: vec4<f32>,
     @location(1) second: vec4<f32>,
@@ -52,7 +51,7 @@ fn cover_tile(
     @builtin(vertex_index) vertex: u32,
     @builtin(instance_index) tile: u32,
 ) -> @builtin(position) vec4<f32> {
-    if tiles_before[tile] == 0u {
+    if tiles[tile].is_live == 0u {
         return vec4(0.0, 0.0, 0.5, 1.0);
     }
     return corner_of_tile(tile, vertex);
@@ -71,7 +70,7 @@ fn begin(@builtin(position) at: vec4<f32>) -> Lists {
         list::write_support(pixel, rays[pixel], 0.0, list::listed[0]);
         return stored(vec2(NO_LIMIT, 0.0));
     }
-    tiles_after[tile_of(position)] = 1u;
+    rays_left[tile_of(position)] = 1u;
     return stored(vec2(0.0, -1.0));
 }
 
@@ -88,9 +87,7 @@ fn test_layer(@builtin(position) at: vec4<f32>) -> Lists {
     let next = test_interval(position, pixel, rays[pixel], last, point);
     write_work(pixel);
     if next != NO_LIMIT {
-        atomicStore(&draws[1], arranged.drawn);
-        atomicStore(&draws[5], tile_count());
-        tiles_after[tile_of(position)] = 1u;
+        rays_left[tile_of(position)] = 1u;
     }
     return stored(vec2(next, point.y));
 }
@@ -107,7 +104,11 @@ fn test_interval(
     let kernel = from_depth(textureLoad(kernel_depth, position, 0));
     let next = select(NO_LIMIT, point.x, point.x > 0.0);
     let end = max(min(min(next, kernel), ray.t_max), last);
-    var t = list::search(ray, last, end);
+    // In the single case the kernel spheres that were drawn are the surface (section 5.2).
+    var t = list::NOTHING_FOUND;
+    if !(culling && list::listed_count == 1u) {
+        t = list::search(ray, last, end);
+    }
     if t == list::SEARCH_LOST {
         hit::write_hit(pixel, last, -ray.direction, hit::UNDECIDED);
         return NO_LIMIT;

@@ -1,6 +1,7 @@
 // The balls alone, each as the sphere in which it reaches the threshold by itself (Kanamori et al.
 // 2008, figure 11 left). A rectangle a ball bounds it on the picture; a fragment intersects its ray.
 
+#import metaball::cover::covering_corner
 #import metaball::light::{phong, from_within, background}
 #import metaball::make_ray::direction_through
 #import metaball::srgb::{decode, encode}
@@ -31,38 +32,10 @@ struct Shaded {
     @builtin(frag_depth) depth: f32,
 }
 
-// Corner of a strip of two triangles.
-fn corner_of(vertex: u32) -> vec2<f32> {
-    return vec2(f32(vertex & 1u), f32(vertex >> 1u));
-}
-
 @vertex
 fn bound_sphere(@builtin(vertex_index) vertex: u32, @builtin(instance_index) sphere: u32) -> Corner {
-    let offset = spheres[sphere].center - view.eye;
-    let radius = spheres[sphere].radius;
-    let ahead = dot(offset, view.forward);
-    let half = view.half_pixel * vec2(f32(view.width), f32(view.height));
-    let across = tangents(vec2(dot(offset, view.right), ahead), radius, half.x);
-    let upwards = tangents(vec2(dot(offset, view.up), ahead), radius, half.y);
-    let corner = corner_of(vertex);
-    let position = vec2(mix(across.x, across.y, corner.x), mix(upwards.x, upwards.y, corner.y));
-    return Corner(vec4(position / half, 0.5, 1.0), sphere);
-}
-
-// The part of [-half, half] at unit distance that a circle can cover, seen from the origin along the
-// second axis; empty ranges have equal ends.
-fn tangents(center: vec2<f32>, radius: f32, half: f32) -> vec2<f32> {
-    // Vulkan lets atan2 err by 4096 units in the last place: below this angle.
-    const SLACK = 0.002;
-    let distance = length(center);
-    if distance <= radius * 1.001 {
-        return vec2(-half, half);
-    }
-    let middle = atan2(center.x, center.y);
-    let spread = atan2(radius, sqrt((distance - radius) * (distance + radius))) + SLACK;
-    let limit = atan(half);
-    let ends = clamp(vec2(middle - spread, middle + spread), vec2(-limit), vec2(limit));
-    return tan(ends);
+    let here = spheres[sphere];
+    return Corner(covering_corner(here.center, here.radius, vertex), sphere);
 }
 
 @fragment
@@ -92,7 +65,7 @@ fn shade_sphere(corner: Corner) -> Shaded {
 
 @vertex
 fn cover_picture(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4<f32> {
-    return vec4(2.0 * corner_of(vertex) - 1.0, 0.0, 1.0);
+    return vec4(2.0 * vec2(f32(vertex & 1u), f32(vertex >> 1u)) - 1.0, 0.0, 1.0);
 }
 
 @fragment

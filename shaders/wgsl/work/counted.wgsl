@@ -4,6 +4,8 @@
 #import metaball::work_record::{Work, work_of_pixel}
 
 var<private> work: Work;
+// Iterations since the last search ended.
+var<private> in_search: u32;
 
 fn count_node() {
     work.nodes += 1u;
@@ -23,6 +25,13 @@ fn count_evaluations(n: u32) {
 
 fn count_iterations(n: u32) {
     work.iterations += n;
+    in_search += n;
+}
+
+// The iterations to come belong to another search.
+fn count_search_end() {
+    work.longest_search = max(work.longest_search, in_search);
+    in_search = 0u;
 }
 
 fn count_layers(n: u32) {
@@ -37,5 +46,7 @@ fn write_work(pixel: u32) {
     work_of_pixel[pixel].evaluations += work.evaluations;
     work_of_pixel[pixel].iterations += work.iterations;
     work_of_pixel[pixel].layers += work.layers;
+    let longest = max(work_of_pixel[pixel].longest_search, work.longest_search);
+    work_of_pixel[pixel].longest_search = longest;
     work = Work();
 }

@@ -11,6 +11,8 @@ fn count_evaluations(n: u32) {}
 
 fn count_iterations(n: u32) {}
 
+fn count_search_end() {}
+
 fn count_layers(n: u32) {}
 
 fn write_work(pixel: u32) {}

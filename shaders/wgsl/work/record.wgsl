@@ -15,6 +15,8 @@ struct Work {
     iterations: u32,
     // Peeled layers or list entries gone through.
     layers: u32,
+    // Most steps of a root finder in one search.
+    longest_search: u32,
 }
 
 @group(0) @binding(5) var<storage, read_write> work_of_pixel: array<Work>;

@@ -5,7 +5,8 @@ use metaball_core::gpu::{Gpu, Shader, Specialization};
 use metaball_shaders::Module;
 
 use super::random::Random;
-use crate::pipelines::bernstein;
+use crate::Clipping;
+use crate::pipelines::searching;
 
 /// A curve's coefficients, or what belongs to one: room for degree 16 and three numbers more.
 type Record = [f32; 20];
@@ -16,11 +17,12 @@ fn evaluate(
     gpu: &Gpu,
     source: &'static str,
     kernel: Kernel,
+    clipping: Clipping,
     constants: &[(&str, f64)],
     inputs: &[Record],
 ) -> Vec<Record> {
     let spec = Specialization { kernel, ..Specialization::without_balls() };
-    let (modules, exponent) = bernstein(kernel).expect("has a form");
+    let (modules, exponent) = searching(kernel, clipping).expect("has a form");
     let spec = spec.choosing(modules);
     let mut constants = constants.to_vec();
     constants.extend(exponent.map(|exponent| ("36", exponent)));
@@ -83,7 +85,7 @@ fn value(coefficients: &[f32], u: f64) -> f64 {
 #[test]
 fn bernstein_forms_are_the_kernel() {
     const SOURCE: &str = "#import metaball::kanamori_peel::bernstein::{along_chord, degree}\n\
-        #import metaball::kanamori_peel::clipping::part
+        #import metaball::kanamori_peel::bezier::part
         @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
         @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
         @compute @workgroup_size(64)
@@ -114,7 +116,7 @@ fn bernstein_forms_are_the_kernel() {
         .collect();
     for kernel in Kernel::all() {
         let Some(degree) = kernel.degree_along_ray() else { continue };
-        let curves = evaluate(&gpu, SOURCE, kernel, &[], &chords);
+        let curves = evaluate(&gpu, SOURCE, kernel, Clipping::ShortStack, &[], &chords);
         for (chord, curve) in chords.iter().zip(curves) {
             let [a, strength, low, high] = [0, 1, 2, 3].map(|index| f64::from(chord[index]));
             for step in 0..=20 {
@@ -149,7 +151,7 @@ const ROOTS: &str = "#import metaball::kanamori_peel::bernstein::{Curve, degree}
 /// Roots of curves of degree six with a threshold and a stack size.
 fn roots(gpu: &Gpu, curves: &[Record], threshold: f64, stack_size: f64) -> Vec<f64> {
     let constants = [("33", threshold), ("34", stack_size)];
-    let roots = evaluate(gpu, ROOTS, Kernel::Wyvill, &constants, curves);
+    let roots = evaluate(gpu, ROOTS, Kernel::Wyvill, Clipping::ShortStack, &constants, curves);
     roots.iter().map(|record| f64::from(record[0])).collect()
 }
 

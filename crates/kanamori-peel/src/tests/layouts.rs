@@ -2,7 +2,8 @@
 
 use metaball_shaders::{KernelModule, StructLayout, Variant, compose, host_layout, struct_layout};
 
-use crate::balls::{ArrangedHead, Peeling, Placed};
+use crate::balls::{Arranged, Peeling, Placed};
+use crate::tiles::Tile;
 
 /// A struct as a module of the method has it.
 fn twin(module: &str, name: &str) -> StructLayout {
@@ -11,7 +12,11 @@ fn twin(module: &str, name: &str) -> StructLayout {
         strengths: true,
         colors: true,
         counting: true,
-        chosen: &["kanamori_peel/wyvill"],
+        chosen: &[
+            "kanamori_peel/wyvill",
+            "kanamori_peel/clipping_short_stack",
+            "kanamori_peel/outline_rectangle",
+        ],
     };
     let module = compose(module, &variant).unwrap_or_else(|error| panic!("{error}"));
     struct_layout(&module, name).expect("the module uses the struct")
@@ -32,9 +37,16 @@ fn constants_of_a_frame() {
 }
 
 #[test]
-fn lists_of_balls() {
-    let twin = twin("kanamori_peel/test", "Arranged");
-    let host = host_layout!(ArrangedHead { drawn, around, around_balls });
-    assert_eq!(twin.members[..3], host.members);
-    assert_eq!(twin.members[3], ("balls".to_owned(), host.size));
+fn arranged_balls() {
+    let host = host_layout!(Arranged { in_view, drawn, around, around_balls });
+    assert_eq!(twin("kanamori_peel/arrange", "Arranged"), host);
+    assert_eq!(twin("kanamori_peel/test", "Arranged"), host);
+}
+
+#[test]
+fn tiles() {
+    let host = host_layout!(Tile { first, balls, is_live });
+    for module in ["register", "turn", "peel", "test"] {
+        assert_eq!(twin(&format!("kanamori_peel/{module}"), "Tile"), host, "{module}");
+    }
 }

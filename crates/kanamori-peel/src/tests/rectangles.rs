@@ -59,7 +59,8 @@ fn projected(ball: &Metaball, view: &View) -> Option<(DVec2, DVec2)> {
 /// The rectangles that the device makes.
 fn placed(gpu: &Gpu, balls: &[Metaball], view: &View) -> Vec<Placed> {
     let scene = Scene::new(balls.iter().copied(), Kernel::QUARTIC, 0.5).expect("legal");
-    let mut renderer = Renderer::new("kanamori", Options::default(), false);
+    let mut renderer =
+        Renderer::new("kanamori", Options { culling: false, ..Options::default() }, false);
     renderer.build(gpu, &scene).expect("builds");
     let targets = Targets::new(gpu, view.width(), view.height(), false, false).expect("targets");
     let mut frame = Frame::begin(gpu, &targets, view).expect("begins");

@@ -11,7 +11,7 @@
 //! | --- | --- | --- |
 //! | process | [`Gpu`] | tens of milliseconds |
 //! | scene and [`Specialization`] | the method, its pipelines and [`SceneBuffers`] | composing and compiling shaders, tens of milliseconds a pipeline, and the upload: 16 to 24 bytes a ball |
-//! | image size | [`Targets`] | 32 bytes a pixel; 4 more with colours, 24 more with work counters |
+//! | image size | [`Targets`] | 32 bytes a pixel; 4 more with colours, 28 more with work counters |
 //! | view | [`Frame`] | the pass `rays`, and what the method records |
 //!
 //! Shaders are specialised: strengths, colours and counters that a scene or a measurement has no use
@@ -60,6 +60,7 @@ pub use adapter::{AdapterChoice, AdapterReport, GpuError};
 pub use device::Gpu;
 pub use error::RenderError;
 pub use frame::{Frame, FrameReport, FrameStatus, RenderAttachments};
+pub use layout::{Binding, Resource, group as bind_group, layout as bind_group_layout};
 pub use pipeline::{Shader, Specialization, compute_pipeline, pipeline_layout};
 pub use rays::PackedRay;
 pub use renderer::{BuildReport, IsoRenderer, render};

@@ -28,6 +28,16 @@ pub trait IsoRenderer {
     /// When a pass cannot be recorded.
     fn encode(&mut self, frame: &mut Frame<'_>) -> Result<(), RenderError>;
 
+    /// What the last frame was like beyond its times, such as the number of balls it drew, under
+    /// stable names. Waits for the device.
+    ///
+    /// # Errors
+    /// When there was no frame, or the device fails.
+    fn frame_facts(&self, gpu: &Gpu) -> Result<Vec<(&'static str, f64)>, RenderError> {
+        let _ = gpu;
+        Ok(Vec::new())
+    }
+
     /// After a frame that ran out of room, makes more. `Ok(false)`: more room would not help.
     ///
     /// # Errors

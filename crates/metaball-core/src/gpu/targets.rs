@@ -17,7 +17,7 @@ use crate::{Color, Hit, PackedHit, Ray, View};
 pub const TILE: u32 = 8;
 
 /// Everything of one image size: rays, hits and status, and the clock of its passes; blended colours
-/// and work counters only when asked for. 32 bytes a pixel; 4 more with colours, 24 more with work.
+/// and work counters only when asked for. 32 bytes a pixel; 4 more with colours, 28 more with work.
 ///
 /// One frame at a time may use them.
 #[derive(Debug)]

@@ -20,6 +20,9 @@ pub struct Work {
     pub iterations: u32,
     /// Peeled layers or list entries gone through.
     pub layers: u32,
+    /// Most steps of a root finder in one search; 0 from methods that do not say where a search
+    /// ends. No sum over the picture means anything, so it is no [`WorkKind`].
+    pub longest_search: u32,
 }
 
 /// A counter of [`Work`], by name.

@@ -26,7 +26,15 @@ fn host_structs_are_their_twins() {
         (wgsl("core/scene", "SceneHeader"), host_layout!(SceneHeader { threshold, balls })),
         (
             wgsl("work/record", "Work"),
-            host_layout!(Work { nodes, leaf_tests, balls, evaluations, iterations, layers }),
+            host_layout!(Work {
+                nodes,
+                leaf_tests,
+                balls,
+                evaluations,
+                iterations,
+                layers,
+                longest_search
+            }),
         ),
         (wgsl("shade/picture", "ValueRange"), host_layout!(ValueRange { low, high })),
         (

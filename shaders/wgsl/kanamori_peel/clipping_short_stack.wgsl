@@ -3,6 +3,9 @@
 #define_import_path metaball::kanamori_peel::clipping
 
 #import metaball::kanamori_peel::bernstein::{Curve, degree}
+#import metaball::kanamori_peel::bezier::{
+    before, cut, left_half, LOST, MOST_ITERATIONS, NARROWED, NO_ROOT, Piece, reaches_axis, right_half,
+}
 #import metaball::work::count_iterations
 
 // Width, in parts of the interval, at which a range is a root.
@@ -12,19 +15,6 @@
 @id(34) override stack_size: u32 = 3u;
 
 const MOST_WAITING: u32 = 4u;
-
-// A root's outcome beside those in [0, 1].
-const NO_ROOT: f32 = 2.0;
-// Iterations ran out: cannot happen short of arithmetic that is broken.
-const LOST: f32 = 3.0;
-const MOST_ITERATIONS: u32 = 4096u;
-
-// A curve over a part of the interval.
-struct Piece {
-    curve: Curve,
-    low: f32,
-    high: f32,
-}
 
 var<private> waiting: array<Piece, MOST_WAITING>;
 var<private> waiting_count: u32;
@@ -53,7 +43,7 @@ fn first_root(whole: Curve) -> f32 {
                 waiting_count--;
                 piece = waiting[waiting_count];
             } else if dropped_from < 1.0 {
-                piece = Piece(part(whole, dropped_from, 1.0), dropped_from, 1.0);
+                piece = cut(Piece(whole, 0.0, 1.0), dropped_from, 1.0);
                 dropped_from = NO_ROOT;
             } else {
                 return NO_ROOT;
@@ -68,9 +58,8 @@ fn first_root(whole: Curve) -> f32 {
             return piece.low;
         } else {
             // Two or more roots perhaps: the range would not get narrower, so it is split at once.
-            let middle = 0.5 * (piece.low + piece.high);
-            let right = Piece(after(piece.curve, 0.5), middle, piece.high);
-            piece = Piece(before(piece.curve, 0.5), piece.low, middle);
+            let right = right_half(piece);
+            piece = left_half(piece);
             if reaches_axis(right.curve) {
                 if waiting_count == stack_size {
                     dropped_from = waiting[0].low;
@@ -109,16 +98,14 @@ fn clip(piece: Piece) -> Piece {
             high = max(high, crossing);
         }
     }
-    if high - low > 0.8 {
+    if high - low > NARROWED {
         // Too little: the half with the root is surely less.
         let left = before(piece.curve, 0.5);
         let is_left = left.d[n] >= 0.0;
         low = select(0.5, 0.0, is_left);
         high = select(1.0, 0.5, is_left);
     }
-    let width = piece.high - piece.low;
-    let cut = part(piece.curve, low, high);
-    return Piece(cut, piece.low + low * width, piece.low + high * width);
+    return cut(piece, low, high);
 }
 
 fn sign_changes(curve: Curve) -> u32 {
@@ -127,45 +114,4 @@ fn sign_changes(curve: Curve) -> u32 {
         changes += select(0u, 1u, (curve.d[i] >= 0.0) != (curve.d[i + 1u] >= 0.0));
     }
     return changes;
-}
-
-fn reaches_axis(curve: Curve) -> bool {
-    var greatest = curve.d[0];
-    for (var i = 1u; i <= degree(); i++) {
-        greatest = max(greatest, curve.d[i]);
-    }
-    return greatest >= 0.0;
-}
-
-// The curve from `low` to `high`, 0 <= low <= high <= 1, by two subdivisions of de Casteljau.
-fn part(curve: Curve, low: f32, high: f32) -> Curve {
-    let rest = 1.0 - low;
-    if rest <= 0.0 {
-        return after(curve, 1.0);
-    }
-    return before(after(curve, low), min((high - low) / rest, 1.0));
-}
-
-// The curve from 0 to u.
-fn before(curve: Curve, u: f32) -> Curve {
-    var result = curve;
-    let n = degree();
-    for (var round = 1u; round <= n; round++) {
-        for (var i = n; i >= round; i--) {
-            result.d[i] = mix(result.d[i - 1u], result.d[i], u);
-        }
-    }
-    return result;
-}
-
-// The curve from u to 1.
-fn after(curve: Curve, u: f32) -> Curve {
-    var result = curve;
-    let n = degree();
-    for (var round = 1u; round <= n; round++) {
-        for (var i = 0u; i <= n - round; i++) {
-            result.d[i] = mix(result.d[i], result.d[i + 1u], u);
-        }
-    }
-    return result;
 }

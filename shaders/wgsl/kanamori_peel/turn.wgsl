@@ -1,0 +1,28 @@
+// Between two layers: what the next one draws. A tile without a ray that lacks an answer draws nothing,
+// so that what is recorded beyond the last layer costs little, and nobody reads anything back.
+
+#import metaball::kanamori_peel::outline::VERTICES
+#import metaball::kanamori_peel::tiles::{MOST_TILES, Tile}
+
+// An indirect draw. The number of the tile is in the first vertex: its balls' place has no use as the
+// first instance, which would take a feature.
+struct Draw {
+    vertices: u32,
+    instances: u32,
+    first_vertex: u32,
+    first_instance: u32,
+}
+
+@group(2) @binding(0) var<storage, read_write> tiles: array<Tile, MOST_TILES>;
+// Set by rays that have no answer.
+@group(2) @binding(1) var<storage, read_write> rays_left: array<u32, MOST_TILES>;
+@group(2) @binding(2) var<storage, read_write> draws: array<Draw, MOST_TILES>;
+
+@compute @workgroup_size(256)
+fn turn(@builtin(local_invocation_index) tile: u32) {
+    let is_live = rays_left[tile];
+    rays_left[tile] = 0u;
+    tiles[tile].is_live = is_live;
+    let balls = select(0u, tiles[tile].balls, is_live != 0u);
+    draws[tile] = Draw(VERTICES, balls, tile * VERTICES, 0u);
+}
