@@ -16,9 +16,11 @@
 //! | --- | --- | --- |
 //! | `place` | a rectangle for each ball, on the device | 5.1, appendix B |
 //! | `kernel spheres`, `seen` | depth of the kernel spheres; a flag for each ball seen before it | 5.2 |
-//! | `arrange` | lists of the balls to draw and of those around the eye | 5.2 |
+//! | `arrange` | which balls are drawn, and the list of those around the eye | 5.2 |
+//! | `register` | the balls of each tile, unless the host has sent them (`cpu:register`) | 5.3 |
 //! | `begin` | the lists that rays begin with | |
-//! | `peel` | per layer: the nearest point beyond the last one | 4.1, 5.1 |
+//! | `turn` | per layer: tiles without a ray left draw nothing any more | 5.3 |
+//! | `peel` | per layer: the nearest point beyond the last one, tile by tile in one pass | 4.1, 5.1 |
 //! | `test` | per layer: the interval's search and the toggled list | 4.2, 4.3, 5.4 |
 //! | `account` | rays without an answer | |
 //!
@@ -29,23 +31,28 @@
 //!
 //! *Rectangles* of appendix B hold for spheres wholly in front of the eye's plane. Here tangents are
 //! turned directions, with cases for spheres that cross the plane, lie behind it or hold the eye
-//! (`rectangle.wgsl`).
+//! (`core/cover.wgsl`).
 //!
 //! *The eye may be inside supports*: the paper's is outside. Rays begin at t = 0 with the balls
 //! around the eye on their lists, decided once per ball and frame.
 //!
-//! *Occlusion queries* become flags that fragments write, a prefix sum that keeps the balls' order,
-//! and an indirect draw. The kernel sphere's depth also ends rays: with balls behind it left out,
-//! nothing more would come.
+//! *Occlusion queries* become flags: fragments say which balls are seen and which tiles have a ray
+//! left. Culled balls lose their rectangle. A tile is a scissored indirect draw of the layer's one pass;
+//! once it has ended it draws no instances, so that a batch of layers is recorded without asking how
+//! far it gets. The kernel sphere's depth is the hit of the single case and ends every ray: with balls
+//! behind it left out, nothing more would come.
+//!
+//! *Registration on the host,* as published, knows the rectangles and not what is seen: culled balls
+//! are registered and drop out in the vertex stage. [`Registration::Device`] leaves them out.
 //!
 //! *A full stack* drops its furthest range and restores it from the whole curve when its turn comes,
 //! so no stack size loses a root. Ranges with several sign changes are split down to the square of
 //! the threshold before they count as a root, since a hull may cross the axis where the curve does
 //! not.
 //!
-//! *The test of a layer leaves out squares of 16 × 16 pixels* without a ray left: as the tiles of
-//! section 5.3 let the test end early, though not the peeling, for which balls are not sorted into
-//! tiles here.
+//! *What each optimisation replaces* can be chosen in [`Options`], to measure what it brings:
+//! polyhedra, all balls, one tile, and two other ways of clipping. [`Clipping::Iterative`] is our
+//! reading of a form that the paper describes in a clause; the paper has 16.4 iterations for it.
 //!
 //! *A ball whose end is lost* to a coincident point (section 7, figure 9a) stays on the list, as
 //! printed, but adds nothing outside its own chord: what is lost can make a surface late, never
@@ -57,11 +64,15 @@
 //!
 //! # Practice
 //! Right wherever no two points along the ray before the surface coincide in f32 (unless they are
-//! told apart) and no more than K supports overlap there. With more than K the support itself is drawn, as section 7 says, and the
-//! hit is marked as a fallback; no list holds more than 30 balls. t errs by at most half the threshold times the interval's length.
+//! told apart) and no more than K supports overlap there. With more than K the support itself is drawn,
+//! as section 7 says, and the hit is marked as a fallback; no list holds more than 30 balls. t errs by
+//! at most half the threshold times the interval's length.
 //!
-//! A frame that runs out of layers is incomplete and is drawn again with twice as many. 144 bytes a
-//! pixel with K = 14. At most 2²⁴ − 256 balls: indices are kept as f32.
+//! A frame that runs out of layers is incomplete and is drawn again with twice as many; so is one whose
+//! tiles have more balls than the device has room for, with that room. [`Renderer`]'s `frame_facts`
+//! tell the balls drawn and the share that was culled; its counters ([`metaball_core::gpu::Work`]) the
+//! iterations of clipping, in all and in the longest search. 144 bytes a pixel with K = 14. At most
+//! 16,640,000 balls: indices are kept as f32.
 
 mod balls;
 mod layers;

@@ -84,17 +84,17 @@ impl IsoRenderer for Renderer {
         let compilation = start.elapsed();
 
         let balls = Balls::new(gpu, scene, &pipelines.layouts)?;
+        let room = FIRST_REGISTRATIONS.saturating_mul(balls.count.max(1));
+        let tiles =
+            TileRoom::new(gpu, &balls, &pipelines.layouts, self.options.registration, room)?;
         let report = BuildReport {
             // The method has no structure.
             structure: Duration::ZERO,
             pipelines: compilation,
             upload_bytes: balls.scene.bytes() + balls.own_upload_bytes(),
-            device_bytes: balls.scene.bytes() + balls.own_bytes(),
+            device_bytes: balls.scene.bytes() + balls.own_bytes() + tiles.bytes(),
             facts: Vec::new(),
         };
-        let room = FIRST_REGISTRATIONS.saturating_mul(balls.count.max(1));
-        let tiles =
-            TileRoom::new(gpu, &balls, &pipelines.layouts, self.options.registration, room)?;
         self.supports = match self.options.registration {
             Registration::Host => supports(scene),
             Registration::Device => Vec::new(),
@@ -123,7 +123,7 @@ impl IsoRenderer for Renderer {
             let (of_tiles, registered) =
                 frame.cpu("register", || register(&self.supports, view, &grid));
             if registered.len() > tiles.room as usize {
-                let room = registered.len().next_power_of_two() as u32;
+                let room = registered.len().next_power_of_two().min(u32::MAX as usize) as u32;
                 *tiles = TileRoom::new(gpu, balls, &pipelines.layouts, Registration::Host, room)?;
             }
             tiles.fill(gpu, &of_tiles, &registered)?;

@@ -175,6 +175,7 @@ pub(crate) struct TileRoom {
     tiles: wgpu::Buffer,
     registered: wgpu::Buffer,
     rays_left: wgpu::Buffer,
+    bytes: u64,
 }
 
 impl TileRoom {
@@ -195,7 +196,10 @@ impl TileRoom {
         let tallies = gpu.storage("tallies of tiles", 4 * ALL_TILES * u64::from(rows), none)?;
         let rays_left = gpu.storage("rays left", 4 * ALL_TILES, none)?;
         let draws = gpu.storage("draws", DRAW_BYTES * ALL_TILES, wgpu::BufferUsages::INDIRECT)?;
+        let all = [&tiles, &registered, &tallies, &rays_left, &draws];
+        let bytes = all.iter().map(|buffer| buffer.size()).sum();
         gpu.checked(|| Self {
+            bytes,
             registering: bind_group(
                 gpu,
                 "kanamori registering",
@@ -230,6 +234,12 @@ impl TileRoom {
             rays_left,
         })
     }
+
+    /// Bytes on the device.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
     /// Sends what the host registered, which there must be room for.
     pub(crate) fn fill(
         &self,

@@ -34,6 +34,10 @@ fn cut(piece: Piece, low: f32, high: f32) -> Piece {
     return Piece(curve, piece.low + low * width, piece.low + high * width);
 }
 
+// Parts of a range that the hull's is widened by at each end, so that rounding costs no root (the
+// heuristic of Campagna et al. 1997).
+const WIDENING: f32 = 0.001;
+
 // Where the hull of the control points meets the axis (section 3.2), for a curve that begins below
 // and reaches it.
 fn hull_on_axis(curve: Curve) -> vec2<f32> {
@@ -52,7 +56,7 @@ fn hull_on_axis(curve: Curve) -> vec2<f32> {
             }
         }
     }
-    return range;
+    return clamp(range + vec2(-WIDENING, WIDENING), vec2(0.0), vec2(1.0));
 }
 
 fn reaches_axis(curve: Curve) -> bool {
