@@ -1,12 +1,12 @@
 //! How long building takes: scattered balls for its growth with their number, a dense cloud for its
-//! growth with their overlap; and tracing a picture of them on the CPU.
+//! growth with their overlap.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use fbvh::{Options, TraceOptions, Tracer, Tree};
+use fbvh::{Options, Tree};
 use glam::Vec3;
-use metaball_core::{Camera, Kernel, Metaball, Ray, Scene};
+use metaball_core::{Kernel, Metaball, Scene};
 
 /// Numbers from 0 to 1, the same in every run.
 fn random() -> impl FnMut() -> f32 {
@@ -66,32 +66,5 @@ fn build(criterion: &mut Criterion) {
     }
 }
 
-fn trace(criterion: &mut Criterion) {
-    const WIDTH: u32 = 320;
-    const HEIGHT: u32 = 240;
-    let mut group = criterion.benchmark_group("trace");
-    group.sample_size(10);
-    for (name, scene) in [("scattered-30000", scattered(30_000)), ("dense-128000", dense(128_000))]
-    {
-        let camera = Camera::framing(&scene.bounds(), Vec3::new(0.6, 0.3, 1.0));
-        let rays: Vec<Ray> = (0..WIDTH * HEIGHT)
-            .map(|pixel| {
-                let (column, row) = (pixel % WIDTH, pixel / WIDTH);
-                let direction = camera.exact_direction(column, row, WIDTH, HEIGHT);
-                Ray::new(camera.eye(), direction.as_vec3())
-            })
-            .collect();
-        group.throughput(Throughput::Elements(rays.len() as u64));
-        let certified = ("fbvh-certified", Options::certified());
-        for (structure, options) in STRUCTURES.into_iter().chain([certified]) {
-            let tree = Tree::build(&scene, &options).expect("legal options");
-            let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
-            group.bench_with_input(BenchmarkId::new(structure, name), &rays, |bencher, rays| {
-                bencher.iter(|| tracer.first_hits(black_box(rays)));
-            });
-        }
-    }
-}
-
-criterion_group!(benches, build, trace);
+criterion_group!(benches, build);
 criterion_main!(benches);

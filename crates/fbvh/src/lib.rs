@@ -45,6 +45,11 @@
 //! surface. This assumes that every ray that hits has such a projection. Of random rays that hit, two
 //! in a thousand do not, nearly tangent ones, and are missed: that is the published method.
 //!
+//! *The certified tree* ([`Kind::Certified`], not in the paper). Boxes are classified by exact ranges
+//! of the field: below T throughout and dropped, above T throughout and solid, or else a leaf with a
+//! list. A leaf is searched with bounds that no root escapes, and all rounding accounted for, so an
+//! answer is right or says that it is undecided.
+//!
 //! # Changes versus the paper
 //! - T/Σq stands for the printed T/n, which is wrong for strengths above 1. Σ and n run over own and
 //!   split balls. [`Boxes::PerBall`] applies the bound to each radius.
@@ -64,6 +69,10 @@
 //! is the same bit for bit whatever the number of threads. Its memory is that of its lists, which
 //! grow with density; [`Tree::stats`] says how large they are, and [`Tree::validate`] lets a tree
 //! prove itself.
+//!
+//! Rays ask three things: where they enter the solid ([`Tracer::first_hit`]), whether there is any
+//! ([`Tracer::any_hit`], for shadows), and where they leave it ([`Tracer::first_exit`], from inside, in
+//! certified trees). Each can be asked of a slice of rays at once, in parallel.
 //!
 //! Particles of another type need not be copied: implement [`Field`] for them. Balls that could
 //! never be traced (radii of 0, NaN) are refused by index; everything else is legal, an empty scene

@@ -1,7 +1,12 @@
-//! Rays through a tree on the CPU, in f32: sections 4 and 5.2.
+//! Rays through a tree on the CPU: sections 4 and 5.2 in f32, and the certified tree.
 
+mod bernstein;
 mod certified;
+mod lanes;
 mod leaf;
+mod pack;
+mod polynomial;
+mod ranges;
 mod slabs;
 mod work;
 
@@ -13,6 +18,7 @@ use crate::node::{EMPTY, MAX_DEPTH};
 use crate::tree::Child;
 use crate::{Field, Kind, Tree};
 
+use self::certified::Scratch;
 use self::slabs::Slabs;
 pub use self::work::{Counter, Work};
 
@@ -56,7 +62,14 @@ impl Default for TraceOptions {
     }
 }
 
-/// Finds first hits. Cheap to make; shares the tree and the field it was built from.
+/// Which way a ray goes through the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Crossing {
+    In,
+    Out,
+}
+
+/// Asks rays of a tree. Cheap to make; shares the tree and the field it was built from.
 #[derive(Debug)]
 pub struct Tracer<'a, F> {
     tree: &'a Tree,
@@ -76,21 +89,70 @@ impl<'a, F: Field> Tracer<'a, F> {
         self.first_hit_counting(ray, &mut ())
     }
 
-    /// First hits of many rays, in their order, on rayon's current pool.
+    /// First hits of many rays, in their order, on rayon's current pool. Fastest where neighbours in
+    /// the slice are neighbours in space.
     pub fn first_hits(&self, rays: &[Ray]) -> Vec<Hit> {
-        const RAYS_PER_TASK: usize = 64;
-        rays.par_iter().with_min_len(RAYS_PER_TASK).map(|ray| self.first_hit(ray)).collect()
+        self.batch(rays, Hit::MISS, |ray, scratch| self.hit(ray, scratch, &mut ()))
     }
 
     /// As [`Tracer::first_hit`], and tells the counter what it does. With `()` for a counter
     /// nothing of that is compiled.
     pub fn first_hit_counting(&self, ray: &Ray, counter: &mut impl Counter) -> Hit {
+        self.hit(ray, &mut Scratch::new(), counter)
+    }
+
+    /// Whether there is solid on the ray, wherever: [`Verdict::Inside`] where the ray starts in it,
+    /// [`Verdict::Hit`] where it comes to it. What a shadow ray asks; ends at the first certainty,
+    /// and looks for no root.
+    ///
+    /// In a published tree it is the paper's bracket that tells: it ends at a point inside.
+    pub fn any_hit(&self, ray: &Ray) -> Verdict {
+        self.any(ray, &mut Scratch::new())
+    }
+
+    /// [`Tracer::any_hit`] of many rays, in their order, on rayon's current pool.
+    pub fn any_hits(&self, rays: &[Ray]) -> Vec<Verdict> {
+        self.batch(rays, Verdict::Miss, |ray, scratch| self.any(ray, scratch))
+    }
+
+    /// Where a ray that starts inside first leaves the solid, the normal out of it: the field falls
+    /// below T there. A miss when the ray starts outside, or ends before it leaves. `None` when the
+    /// tree is not certified: the paper's test starts outside.
+    pub fn first_exit(&self, ray: &Ray) -> Option<Hit> {
+        (self.tree.kind == Kind::Certified).then(|| self.exit(ray, &mut Scratch::new()))
+    }
+
+    /// [`Tracer::first_exit`] of many rays, in their order, on rayon's current pool.
+    pub fn first_exits(&self, rays: &[Ray]) -> Option<Vec<Hit>> {
+        let exits = || self.batch(rays, Hit::MISS, |ray, scratch| self.exit(ray, scratch));
+        (self.tree.kind == Kind::Certified).then(exits)
+    }
+
+    /// One answer for each ray, in parallel.
+    fn batch<T: Copy + Send>(
+        &self,
+        rays: &[Ray],
+        blank: T,
+        answer: impl Fn(&Ray, &mut Scratch) -> T + Sync,
+    ) -> Vec<T> {
+        const RAYS_PER_TASK: usize = 256;
+        let mut answers = vec![blank; rays.len()];
+        rays.par_chunks(RAYS_PER_TASK).zip(answers.par_chunks_mut(RAYS_PER_TASK)).for_each_init(
+            Scratch::new,
+            |scratch, (rays, answers)| {
+                for (ray, place) in rays.iter().zip(answers) {
+                    *place = answer(ray, scratch);
+                }
+            },
+        );
+        answers
+    }
+
+    fn hit(&self, ray: &Ray, scratch: &mut Scratch, counter: &mut impl Counter) -> Hit {
         if self.tree.kind == Kind::Certified {
-            return self.certified_hit(ray, counter);
+            return self.certain(ray, (Crossing::In, false), scratch, counter);
         }
-        if let Some(leaf) = self.leaf_around(ray.origin)
-            && self.value(leaf, ray, 0.0, counter) >= self.field.threshold()
-        {
+        if let Some(leaf) = self.published_start(ray, counter) {
             let normal = self.normal(leaf, ray, 0.0);
             return Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal };
         }
@@ -98,7 +160,7 @@ impl<'a, F: Field> Tracer<'a, F> {
             self.nearest_of_all(ray, counter)
         } else {
             self.first_in_order(ray, counter, |leaf, stretch, counter| {
-                let t = self.search_all(leaf, ray, stretch, counter)?;
+                let t = self.search(leaf, ray, stretch, counter)?;
                 Some((leaf, t))
             })
         };
@@ -106,6 +168,33 @@ impl<'a, F: Field> Tracer<'a, F> {
             let normal = self.normal(leaf, ray, t);
             Hit { verdict: Verdict::Hit, fallback: false, t, normal }
         })
+    }
+
+    fn any(&self, ray: &Ray, scratch: &mut Scratch) -> Verdict {
+        if self.tree.kind == Kind::Certified {
+            return self.certain(ray, (Crossing::In, true), scratch, &mut ()).verdict;
+        }
+        if self.published_start(ray, &mut ()).is_some() {
+            return Verdict::Inside;
+        }
+        let found = self.first_in_order(ray, &mut (), |leaf, stretch, counter| {
+            self.bracket(leaf, ray, stretch, counter)
+        });
+        found.map_or(Verdict::Miss, |_| Verdict::Hit)
+    }
+
+    fn exit(&self, ray: &Ray, scratch: &mut Scratch) -> Hit {
+        if self.leaf_around(ray.origin).is_none() {
+            return Hit::MISS;
+        }
+        let hit = self.certain(ray, (Crossing::Out, false), scratch, &mut ());
+        if hit.verdict == Verdict::Inside { Hit::MISS } else { hit }
+    }
+
+    /// A leaf that finds the ray's start inside.
+    fn published_start(&self, ray: &Ray, counter: &mut impl Counter) -> Option<usize> {
+        self.leaf_around(ray.origin)
+            .filter(|&leaf| self.value(leaf, ray, 0.0, counter) >= self.field.threshold())
     }
 
     /// A leaf whose list is complete at the point, if the field can reach T there.
@@ -185,7 +274,7 @@ impl<'a, F: Field> Tracer<'a, F> {
                 Some(Child::Leaf(leaf)) => {
                     // The search sees beyond the nearest hit so far: its bracket ends at a
                     // projection, which may lie behind it though the surface is in front.
-                    if let Some(t) = self.search_own(leaf, ray, counter)
+                    if let Some(t) = self.search(leaf, ray, (0.0, ray.t_max), counter)
                         && (t < limit || found.is_none())
                     {
                         limit = t;

@@ -275,3 +275,110 @@ proptest! {
         }
     }
 }
+
+/// What is wrong with the answers about a ray of a certified tree, if the truth is clear.
+///
+/// A root is finished in f64, so t is right to its own rounding to f32, 6e-8 of itself; 1e-6 leaves
+/// room for rays that graze, whose crossing is known to less.
+fn false_answer(
+    tracer: &Tracer<'_, Scene>,
+    (scene, oracle): (&Scene, &Oracle<'_>),
+    ray: &Ray,
+) -> Option<String> {
+    let truth = oracle.first_hit(ray);
+    let hit = tracer.first_hit(ray);
+    let any = tracer.any_hit(ray);
+    let exit = tracer.first_exit(ray).expect("a certified tree");
+    if truth.is_ambiguous() {
+        return None;
+    }
+    // What is promised is 1e4 radii. Beyond, f64 may not tell, and then must say so.
+    let radii = |ball: Metaball| ball.center.distance(ray.origin) / ball.radius;
+    let promised = scene.balls().all(|ball| radii(ball) < 1e5);
+    if !promised && [hit.verdict, any, exit.verdict].contains(&Verdict::Undecided) {
+        return None;
+    }
+    let near =
+        |t: f64, right: f64| (t - right).abs() <= 1e-6 * (right + f64::from(truth.smallest_radius));
+    if hit.verdict != truth.verdict || any != truth.verdict {
+        return Some(format!("first {:?}, any {any:?}: {truth:?}", hit.verdict));
+    }
+    if hit.is_hit() && !near(f64::from(hit.t), truth.t) {
+        return Some(format!("hit at {}: {truth:?}", hit.t));
+    }
+    if truth.verdict != Verdict::Inside || truth.leaves >= f64::from(ray.t_max) {
+        return (exit != Hit::MISS).then(|| format!("{exit:?}: {truth:?}"));
+    }
+    // The margin says nothing of a field that comes down to T on the way, and goes up again.
+    let field_at = |t: f64| oracle.field(ray.origin.as_dvec3() + t * ray.direction.as_dvec3());
+    let first = f64::from(exit.t).min(truth.leaves);
+    let share = (field_at(first) / f64::from(scene.threshold()) - 1.0).abs();
+    let right = near(f64::from(exit.t), truth.leaves) || share <= Truth::AMBIGUOUS;
+    (exit.verdict != Verdict::Hit || !right).then(|| format!("{exit:?}: {truth:?}"))
+}
+
+#[test]
+fn false_answers_are_complained_of() {
+    let scene = |radius| {
+        let balls = [0.0, 0.8].map(|x| Metaball::new(Vec3::X * x, radius));
+        Scene::new(balls, Kernel::QUARTIC, 0.25).expect("legal")
+    };
+    let (right, wrong) = (scene(1.0), scene(1.01));
+    let tree = Tree::build(&right, &Options::certified()).expect("legal options");
+    let tracer = Tracer::new(&tree, &right, CLIPPED);
+    for start in [Vec3::new(0.1, 0.2, -4.0), Vec3::ZERO] {
+        let ray = Ray::new(start, Vec3::Z);
+        assert_eq!(false_answer(&tracer, (&right, &Oracle::new(&right)), &ray), None);
+        assert!(false_answer(&tracer, (&wrong, &Oracle::new(&wrong)), &ray).is_some());
+    }
+    let published = Tree::build(&right, &Options::fitted()).expect("legal options");
+    let tracer = Tracer::new(&published, &right, CLIPPED);
+    let ray = Ray::new(Vec3::new(0.1, 0.2, -4.0), Vec3::Z);
+    assert_eq!((tracer.any_hit(&ray), tracer.first_exit(&ray)), (Verdict::Hit, None));
+    assert_eq!(tracer.any_hit(&Ray { t_max: 2.0, ..ray }), Verdict::Miss);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 400,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    /// At any scale, from any distance, and from inside: most targets are centres of balls, and a
+    /// third of the rays start there.
+    #[test]
+    fn certain_answers_are_the_oracles(
+        scene in scenes::any_scene(40),
+        scale in prop::sample::select(vec![1e-4f32, 1.0, 1e6]),
+        eye in [-1.0f32..1.0, -1.0f32..1.0, -1.0f32..1.0],
+        distance in prop::sample::select(vec![5.0f32, 100.0, 1e4]),
+        targets in prop::collection::vec([-3.0f32..3.0, -3.0f32..3.0, -3.0f32..3.0], 24),
+    ) {
+        let balls: Vec<Metaball> = scene
+            .balls()
+            .map(|ball| Metaball {
+                center: scale * ball.center,
+                radius: scale * ball.radius,
+                ..ball
+            })
+            .collect();
+        let scene = Scene::new(balls.clone(), scene.kernel(), scene.threshold()).expect("legal");
+        let oracle = Oracle::new(&scene);
+        let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
+        let tracer = Tracer::new(&tree, &scene, CLIPPED);
+        let far = scale * distance * Vec3::from(eye);
+        for (at, &target) in targets.iter().enumerate() {
+            let target = scale * Vec3::from(target);
+            let center = balls.get(at).map_or(target, |ball| ball.center);
+            let (start, end) = if at % 3 == 0 { (center, target) } else { (far, center) };
+            let way = DVec3::from(end) - DVec3::from(start);
+            let ray = Ray::new(start, way.normalize_or(DVec3::X).as_vec3());
+            let complaint = false_answer(&tracer, (&scene, &oracle), &ray);
+            prop_assert!(complaint.is_none(), "{ray:?}: {complaint:?}");
+            let limited = Ray { t_max: scale, ..ray };
+            let complaint = false_answer(&tracer, (&scene, &oracle), &limited);
+            prop_assert!(complaint.is_none(), "{limited:?}: {complaint:?}");
+        }
+    }
+}

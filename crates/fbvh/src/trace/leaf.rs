@@ -4,51 +4,58 @@ use glam::Vec3;
 use metaball_core::Ray;
 
 use super::{Counter, Reading, Tracer};
-use crate::Field;
+use crate::{Field, Kind};
+
+/// Two points of a ray and F − T there, between which the field first reaches T. The same point
+/// twice where the search starts inside.
+pub(super) struct Bracket {
+    pub(super) outside: (f32, f32),
+    pub(super) inside: (f32, f32),
+}
 
 impl<F: Field> Tracer<'_, F> {
-    /// Section 4: own balls are projected, all are evaluated, the bracket starts with the ray.
-    pub(super) fn search_own(
-        &self,
-        leaf: usize,
-        ray: &Ray,
-        counter: &mut impl Counter,
-    ) -> Option<f32> {
-        let (own, splits) = self.tree.leaf_balls(leaf);
-        counter.leaf_test(own.len() + splits.len());
-        let (end, end_excess) =
-            self.bracket_end(leaf, own, ray, (0.0, ray.t_max), Reading::Literal, counter)?;
-        let start_excess = self.excess(leaf, ray, 0.0, counter);
-        Some(self.close_in(leaf, ray, (0.0, start_excess), (end, end_excess), counter))
-    }
-
-    /// Section 5.2: all balls are projected. `stretch` is where the ray is in the leaf's box.
-    pub(super) fn search_all(
+    /// The search that belongs to the kind of tree. `stretch` is where the ray is in the leaf's box.
+    pub(super) fn search(
         &self,
         leaf: usize,
         ray: &Ray,
         stretch: (f32, f32),
         counter: &mut impl Counter,
     ) -> Option<f32> {
-        let list = self.list(leaf);
-        counter.leaf_test(list.len());
-        let reading = self.options.reading;
-        let stretch = match reading {
+        let Bracket { outside, inside } = self.bracket(leaf, ray, stretch, counter)?;
+        Some(self.close_in(leaf, ray, outside, inside, counter))
+    }
+
+    /// A point inside, and one outside before it if there is one. Section 4 projects own balls, and
+    /// its bracket starts with the ray; section 5.2 projects all.
+    pub(super) fn bracket(
+        &self,
+        leaf: usize,
+        ray: &Ray,
+        stretch: (f32, f32),
+        counter: &mut impl Counter,
+    ) -> Option<Bracket> {
+        let (own, splits) = self.tree.leaf_balls(leaf);
+        counter.leaf_test(own.len() + splits.len());
+        let (projected, reading) = match self.tree.kind {
+            Kind::ModifiedBvh => (own, Reading::Literal),
+            Kind::Fitted | Kind::Certified => (self.list(leaf), self.options.reading),
+        };
+        let (start, stop) = match reading {
             Reading::Literal => (0.0, ray.t_max),
             Reading::Clipped => stretch,
         };
-        let start = stretch.0;
-        let mut start_excess = None;
         if reading == Reading::Clipped {
-            let excess = self.excess(leaf, ray, start, counter);
-            if excess >= 0.0 {
-                return Some(start);
+            let outside = (start, self.excess(leaf, ray, start, counter));
+            if outside.1 >= 0.0 {
+                return Some(Bracket { outside, inside: outside });
             }
-            start_excess = Some(excess);
+            let inside = self.bracket_end(leaf, projected, ray, (start, stop), reading, counter)?;
+            return Some(Bracket { outside, inside });
         }
-        let end = self.bracket_end(leaf, list, ray, stretch, reading, counter)?;
-        let start_excess = start_excess.unwrap_or_else(|| self.excess(leaf, ray, start, counter));
-        Some(self.close_in(leaf, ray, (start, start_excess), end, counter))
+        let inside = self.bracket_end(leaf, projected, ray, (start, stop), reading, counter)?;
+        let outside = (start, self.excess(leaf, ray, start, counter));
+        Some(Bracket { outside, inside })
     }
 
     /// b of the paper, and the field's excess over T there: the first projection in the stretch
@@ -96,7 +103,7 @@ impl<F: Field> Tracer<'_, F> {
         counter: &mut impl Counter,
     ) -> f32 {
         let close = self.options.tolerance * self.field.threshold();
-        if above <= close {
+        if above <= close || inside <= outside {
             return inside;
         }
         let mut last_moved_inside = None;

@@ -7,6 +7,8 @@ use metaball_core::{Aabb, Ray};
 pub(super) struct Slabs {
     origin: Vec3,
     inverse: Vec3,
+    /// Per axis: whether the ray goes towards −∞.
+    falls: [bool; 3],
 }
 
 /// 1 + 2γ₃, γ₃ = 3w/(1 − 3w), w = 2⁻²⁴: after this no rounding of the three operations can make a
@@ -15,24 +17,26 @@ const WIDER: f32 = 1.0 + 4e-7;
 
 impl Slabs {
     pub(super) fn new(ray: &Ray) -> Self {
-        Self { origin: ray.origin, inverse: ray.direction.recip() }
+        let inverse = ray.direction.recip();
+        let falls = inverse.to_array().map(f32::is_sign_negative);
+        Self { origin: ray.origin, inverse, falls }
     }
 
     /// Where the ray enters and leaves the closed box, within 0 ≤ t ≤ `t_max`; `None` where it
     /// passes it by.
     ///
-    /// A ray that lies in the plane of a face has 0·∞ = NaN there; `max` and `min` keep their other
-    /// argument, which counts the face as part of the box.
+    /// A ray that lies in the plane of a face has 0·∞ = NaN there; no comparison with it holds,
+    /// which counts the face as part of the box.
+    #[inline]
     pub(super) fn crossing(&self, bounds: &Aabb, t_max: f32) -> Option<(f32, f32)> {
         let (mut enter, mut leave) = (0.0f32, t_max);
         for axis in 0..3 {
-            let inverse = self.inverse[axis];
-            let to_min = (bounds.min[axis] - self.origin[axis]) * inverse;
-            let to_max = (bounds.max[axis] - self.origin[axis]) * inverse;
-            let (near, far) =
-                if inverse.is_sign_negative() { (to_max, to_min) } else { (to_min, to_max) };
-            enter = enter.max(near);
-            leave = leave.min(far * WIDER);
+            let faces = [bounds.min[axis], bounds.max[axis]];
+            let falls = usize::from(self.falls[axis]);
+            let near = (faces[falls] - self.origin[axis]) * self.inverse[axis];
+            let far = (faces[1 - falls] - self.origin[axis]) * self.inverse[axis] * WIDER;
+            enter = if near > enter { near } else { enter };
+            leave = if far < leave { far } else { leave };
         }
         (enter <= leave).then_some((enter, leave))
     }

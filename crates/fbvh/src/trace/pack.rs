@@ -1,0 +1,145 @@
+//! A leaf's balls side by side, and what a ray makes of them.
+
+use glam::{DVec3, Vec3};
+use metaball_core::Ray;
+
+use super::lanes::{Lanes, WIDTH};
+use crate::Field;
+
+/// Eight balls, seen from the middle of their leaf's box.
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    /// Centres, f64 and rounded.
+    pub(super) exact: [Lanes<f64>; 3],
+    center: [Lanes<f32>; 3],
+    /// 1/R².
+    pub(super) inverse_square: Lanes<f64>,
+    inverse_square_f32: Lanes<f32>,
+    /// 1/R.
+    inverse_radius: Lanes<f32>,
+    /// Strengths; 0 for a ball that is not there.
+    pub(super) strength: Lanes<f32>,
+}
+
+/// Eight balls along a ray: v = 1 − r²/R² = `constant` + `linear`·t − `square`·t².
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub(super) constant: Lanes<f32>,
+    pub(super) linear: Lanes<f32>,
+    pub(super) square: Lanes<f32>,
+    /// How far rounding can move v on the stretch.
+    pub(super) margin: Lanes<f32>,
+    pub(super) strength: Lanes<f32>,
+}
+
+/// A leaf made ready for rays; kept from leaf to leaf for its memory.
+#[derive(Debug, Default)]
+pub(super) struct Pack {
+    leaf: Option<usize>,
+    middle: DVec3,
+    pub(super) blocks: Vec<Block>,
+    pub(super) parts: Vec<Part>,
+}
+
+/// A ray's stretch in a leaf, from a point beside the leaf's middle: t there is `base` more than
+/// here, where it runs from −`half` to `half`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Local {
+    pub(super) origin: DVec3,
+    pub(super) direction: DVec3,
+    pub(super) base: f64,
+    pub(super) half: f32,
+}
+
+impl Pack {
+    /// Takes up the balls of a leaf, unless it holds them already.
+    pub(super) fn take(
+        &mut self,
+        field: &impl Field,
+        leaf: usize,
+        bounds: &metaball_core::Aabb,
+        list: &[u32],
+    ) {
+        if self.leaf == Some(leaf) {
+            return;
+        }
+        self.leaf = Some(leaf);
+        self.middle = bounds.center().as_dvec3();
+        self.blocks.clear();
+        for balls in list.chunks(WIDTH) {
+            let mut exact = [Lanes::splat(0.0); 3];
+            let mut radius = [1.0f64; WIDTH];
+            let mut strength = Lanes::splat(0.0);
+            for (lane, &ball) in balls.iter().enumerate() {
+                let support = field.support(ball as usize);
+                let center = support.center.as_dvec3() - self.middle;
+                for axis in 0..3 {
+                    exact[axis].0[lane] = center[axis];
+                }
+                radius[lane] = f64::from(support.radius);
+                strength.0[lane] = field.strength(ball as usize);
+            }
+            let inverse = Lanes(radius).map(f64::recip);
+            let inverse_square = inverse * inverse;
+            self.blocks.push(Block {
+                exact,
+                center: exact.map(|coordinate| coordinate.map(|x| x as f32)),
+                inverse_square,
+                inverse_square_f32: inverse_square.map(|x| x as f32),
+                inverse_radius: inverse.map(|x| x as f32),
+                strength,
+            });
+        }
+    }
+
+    /// Moves the ray's origin beside the leaf, in f64, so that distance from the eye costs nothing.
+    pub(super) fn local(&self, ray: &Ray, (start, end): (f64, f64)) -> Local {
+        // Rounded up: the stretch may reach past the leaf's far face by a float, not fall short.
+        let half = (0.5 * (end - start)) as f32;
+        let half = if f64::from(half) < 0.5 * (end - start) { half.next_up() } else { half };
+        let base = start + f64::from(half);
+        let direction = ray.direction.as_dvec3();
+        let origin = (ray.origin.as_dvec3() - self.middle) + base * direction;
+        Local { origin, direction, base, half }
+    }
+
+    /// Projects the balls on the ray.
+    ///
+    /// # Rounding
+    /// With u = 2⁻²⁴, ρ = |p − o|/R, λ = `half`·|d|/R, ω = |o|/R: the centre and o are rounded once,
+    /// which moves p − o by u(2ω + 2ρ)R. Squares, products, 1/R² and sums add to that; in all v is
+    /// right to u(3 + 12ρ² + 20ρλ + 7λ² + 4ω(ρ + λ)) ≤ 12u(1 + (ρ + λ + ω)²), of which 16u is
+    /// taken. What f64 rounds on the way from the eye is added to ω.
+    #[inline(always)]
+    pub(super) fn project(&mut self, ray: &Ray, local: &Local) {
+        const MARGIN: f32 = 16.0 * UNIT;
+        let origin = local.origin.as_vec3();
+        let direction = ray.direction;
+        let square = local.direction.length_squared();
+        let far = ray.origin.as_dvec3().length() + self.middle.length() + local.base.abs();
+        let reach = local.origin.length()
+            + f64::from(local.half) * square.sqrt()
+            + far * (4.0 * f64::EPSILON / f64::from(UNIT));
+        let reach = (reach * 1.000_001) as f32;
+        let square = square as f32;
+        self.parts.clear();
+        self.parts.extend(self.blocks.iter().map(|block| {
+            let offset = |axis: usize| block.center[axis] - Lanes::splat(origin[axis]);
+            let (x, y, z) = (offset(0), offset(1), offset(2));
+            let Vec3 { x: dx, y: dy, z: dz } = direction;
+            let along = x * dx + y * dy + z * dz;
+            let distance = (x * x + y * y + z * z) * block.inverse_square_f32;
+            let reaches = distance.sqrt() + block.inverse_radius * reach;
+            Part {
+                constant: distance.map(|x| 1.0 - x),
+                linear: along * block.inverse_square_f32 * 2.0,
+                square: block.inverse_square_f32 * square,
+                margin: (reaches * reaches).map(|x| MARGIN * (1.0 + x)),
+                strength: block.strength,
+            }
+        }));
+    }
+}
+
+/// u: half a unit in the last place of 1.
+pub(super) const UNIT: f32 = f32::EPSILON / 2.0;

@@ -1,0 +1,382 @@
+//! The search for a crossing in one leaf in f32, eight balls at a time, by Bernstein coefficients:
+//! for kernels that are polynomials of v. What it cannot decide is left to [`super::ranges`].
+
+use glam::{DVec3, Vec3};
+use metaball_core::{Kernel, Ray};
+use pulp::{Arch, Simd, WithSimd};
+
+use super::bernstein::{inverse_binomials, negative_until, only_root, value_and_slope};
+use super::lanes::{Lanes, any};
+use super::pack::{Local, Pack, Part, UNIT};
+use super::{Counter, Crossing};
+
+/// What a search has come to.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Answer {
+    /// No crossing on the stretch.
+    Nothing,
+    /// The ray starts beyond the crossing.
+    Start,
+    /// The first crossing: the ray's t, and the gradient of the field there.
+    Root(f64, DVec3),
+    /// Certainly a crossing: what a search is content with that does not ask where.
+    Somewhere,
+    /// f32 cannot tell.
+    Unclear,
+}
+
+/// What is asked of a leaf.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Question {
+    pub(super) kernel: Kernel,
+    pub(super) threshold: f64,
+    pub(super) crossing: Crossing,
+    /// Whether any crossing will do.
+    pub(super) any: bool,
+}
+
+/// Intervals looked at before the search gives up: two are the rule.
+const MOST_INTERVALS: usize = 24;
+
+impl Question {
+    /// Searches a leaf that has been taken up, over the ray's stretch in it.
+    pub(super) fn ask(
+        &self,
+        arch: Arch,
+        pack: &mut Pack,
+        ray: &Ray,
+        stretch: (f64, f64),
+        counter: &mut impl Counter,
+    ) -> Answer {
+        match self.kernel {
+            Kernel::Perlin => Answer::Unclear,
+            Kernel::Wyvill => self.ask_degree::<7>(arch, pack, ray, stretch, counter),
+            Kernel::Power(exponent) => match exponent.get() {
+                1 => self.ask_degree::<3>(arch, pack, ray, stretch, counter),
+                2 => self.ask_degree::<5>(arch, pack, ray, stretch, counter),
+                3 => self.ask_degree::<7>(arch, pack, ray, stretch, counter),
+                4 => self.ask_degree::<9>(arch, pack, ray, stretch, counter),
+                5 => self.ask_degree::<11>(arch, pack, ray, stretch, counter),
+                6 => self.ask_degree::<13>(arch, pack, ray, stretch, counter),
+                7 => self.ask_degree::<15>(arch, pack, ray, stretch, counter),
+                _ => self.ask_degree::<17>(arch, pack, ray, stretch, counter),
+            },
+        }
+    }
+
+    fn ask_degree<const N: usize>(
+        &self,
+        arch: Arch,
+        pack: &mut Pack,
+        ray: &Ray,
+        stretch: (f64, f64),
+        counter: &mut impl Counter,
+    ) -> Answer {
+        arch.dispatch(Asking::<N, _> { question: self, pack, ray, stretch, counter })
+    }
+
+    /// Front to back: nothing crosses before `start`.
+    #[inline(always)]
+    fn search<const N: usize>(
+        &self,
+        pack: &Pack,
+        local: &Local,
+        stretch: (f64, f64),
+        counter: &mut impl Counter,
+    ) -> Answer {
+        let last = local.half;
+        let (mut start, mut end) = (-last, last);
+        for interval in 0..MOST_INTERVALS {
+            counter.evaluation();
+            let Some(sums) = self.sums::<N>(&pack.parts, start, end) else {
+                return Answer::Unclear;
+            };
+            if interval == 0 && stretch.0 <= 0.0 && sums.upper[0] >= 0.0 {
+                return if sums.ends[0] > 0.0 { Answer::Start } else { Answer::Unclear };
+            }
+            if self.any && (sums.ends[0] > 0.0 || sums.ends[1] > 0.0) {
+                return Answer::Somewhere;
+            }
+            if sums.upper.iter().all(|&most| most < 0.0) {
+                if end >= last {
+                    return Answer::Nothing;
+                }
+                (start, end) = (end, (end + 2.0 * (end - start)).min(last));
+                continue;
+            }
+            if sums.upper[0] >= 0.0 {
+                return Answer::Unclear;
+            }
+            let width = f64::from(end) - f64::from(start);
+            if sums.is_exact && sums.changes_sign_once() {
+                let x = only_root(&sums.middle());
+                let guess = f64::from(start) + x * width;
+                return self.polish::<N>(pack, local, guess, (start, end), stretch, counter);
+            }
+            // No crossing before `clear`; nor a little short of it, where the field is clear of T.
+            let clear = negative_until(sums.upper).unwrap_or(1.0);
+            let beyond = [1.0 / 32.0, 1.0 / 8.0, 0.5]
+                .map(|part| clear + part * (1.0 - clear))
+                .into_iter()
+                .find(|&x| value_and_slope(sums.lower, x).0 > 0.0);
+            if self.any && beyond.is_some() {
+                return Answer::Somewhere;
+            }
+            let clear = clear * (15.0 / 16.0);
+            let until = beyond.unwrap_or(if clear > 0.25 { 1.0 } else { 0.5 + 0.5 * clear });
+            let next = ((f64::from(start) + clear * width) as f32).max(start);
+            end = ((f64::from(start) + until * width) as f32).next_up().min(end);
+            start = next;
+            if start >= end {
+                return Answer::Unclear;
+            }
+        }
+        Answer::Unclear
+    }
+
+    /// Encloses the field on an interval, unless rounding drowns it.
+    #[inline(always)]
+    fn sums<const N: usize>(&self, parts: &[Part], start: f32, end: f32) -> Option<Sums<N>> {
+        let zero = Lanes::splat(0.0f32);
+        let (mut most, mut least, mut error) = ([zero; N], [zero; N], zero);
+        let (start_square, product, end_square) = (start * start, start * end, end * end);
+        let middle = 0.5 * (start + end);
+        for part in parts {
+            let at = |t: f32, square: f32| part.constant + part.linear * t - part.square * square;
+            let v = [at(start, start_square), at(middle, product), at(end, end_square)];
+            let top = v[0].max(v[1]).max(v[2]) + part.margin;
+            if !any(top.map(|v| v > 0.0)) {
+                continue;
+            }
+            let covers = v[0].min(v[2]).zip(part.margin, |v, margin| v >= margin);
+            let terms = self.coefficients::<N>(v.map(|v| v.max(zero)), part.strength);
+            for k in 0..N {
+                most[k] += terms[k];
+                least[k] += terms[k].zip(covers, |term, covers| if covers { term } else { 0.0 });
+            }
+            error += part.strength * part.margin * self.slope::<N>(top.max(zero));
+        }
+        Sums::new(self, parts.len(), &most, &least, error)
+    }
+
+    /// The coefficients of q·k(v), times their binomials: those of a product of polynomials are then
+    /// the products' sums.
+    #[inline(always)]
+    fn coefficients<const N: usize>(
+        &self,
+        [first, second, third]: [Lanes<f32>; 3],
+        strength: Lanes<f32>,
+    ) -> [Lanes<f32>; N] {
+        let mut product = [Lanes::splat(0.0); N];
+        let v = [first, second * 2.0, third];
+        for k in 0..3 {
+            product[k] = v[k] * strength;
+        }
+        // How many factors v there are but the first, which may be a Wyvill's 5/9 + 4/9 v.
+        let factors = match self.kernel {
+            Kernel::Wyvill => 1,
+            _ => (N - 1) / 2 - 1,
+        };
+        for factor in 0..factors {
+            multiply(&mut product, &v, 2 * factor + 2);
+        }
+        if self.kernel == Kernel::Wyvill {
+            let wyvill = |v: Lanes<f32>, one: f32| v.map(|v| (5.0 * one + 4.0 * v) * (1.0 / 9.0));
+            multiply(&mut product, &[wyvill(v[0], 1.0), wyvill(v[1], 2.0), wyvill(v[2], 1.0)], 4);
+        }
+        product
+    }
+
+    /// dk/dv.
+    #[inline(always)]
+    fn slope<const N: usize>(&self, v: Lanes<f32>) -> Lanes<f32> {
+        if self.kernel == Kernel::Wyvill {
+            return v.map(|v| v * (10.0 + 12.0 * v) * (1.0 / 9.0));
+        }
+        let exponent = (N - 1) / 2;
+        (1..exponent).fold(Lanes::splat(exponent as f32), |product, _| product * v)
+    }
+
+    /// Newton's steps in f64 on the field itself, and its gradient.
+    #[inline(always)]
+    fn polish<const N: usize>(
+        &self,
+        pack: &Pack,
+        local: &Local,
+        guess: f64,
+        (start, end): (f32, f32),
+        stretch: (f64, f64),
+        counter: &mut impl Counter,
+    ) -> Answer {
+        const MOST_STEPS: usize = 6;
+        let mut t = guess;
+        for _ in 0..MOST_STEPS {
+            counter.iteration();
+            let (excess, gradient) = self.field::<N>(pack, local, t);
+            let step = excess / gradient.dot(local.direction);
+            t -= step;
+            if !(t >= f64::from(start) && t <= f64::from(end)) {
+                return Answer::Unclear;
+            }
+            // The next error is about the square of this, over the interval's length.
+            if step.abs() <= 1e-5 * f64::from(local.half) {
+                let t = local.base + t;
+                // Past the ray's end by a rounding: too close to call here.
+                return if t <= stretch.1 {
+                    Answer::Root(t.max(stretch.0), gradient)
+                } else {
+                    Answer::Unclear
+                };
+            }
+        }
+        Answer::Unclear
+    }
+
+    /// F − T and the gradient of F, 1/scene unit.
+    #[inline(always)]
+    fn field<const N: usize>(&self, pack: &Pack, local: &Local, t: f64) -> (f64, DVec3) {
+        let point = (local.origin + t * local.direction).to_array();
+        let zero = Lanes::splat(0.0f64);
+        let (mut sum, mut gradient) = (zero, [zero; 3]);
+        for block in &pack.blocks {
+            let [x, y, z] = [0, 1, 2].map(|axis| block.exact[axis] - Lanes::splat(point[axis]));
+            let v = (x * x + y * y + z * z)
+                .zip(block.inverse_square, |distance, inverse| (1.0 - distance * inverse).max(0.0));
+            let strength = block.strength.map(f64::from);
+            let (value, slope) = self.value_and_slope::<N>(v);
+            sum += value * strength;
+            let pull = slope * strength * block.inverse_square * 2.0;
+            for (sum, offset) in gradient.iter_mut().zip([x, y, z]) {
+                *sum += offset * pull;
+            }
+        }
+        let gradient = DVec3::from(gradient.map(Lanes::sum));
+        (sum.sum() - self.threshold, gradient)
+    }
+
+    /// k(v) and dk/dv for v ≥ 0.
+    #[inline(always)]
+    fn value_and_slope<const N: usize>(&self, v: Lanes<f64>) -> (Lanes<f64>, Lanes<f64>) {
+        if self.kernel == Kernel::Wyvill {
+            return (
+                v.map(|v| v * v * (5.0 + 4.0 * v) * (1.0 / 9.0)),
+                v.map(|v| v * (10.0 + 12.0 * v) * (1.0 / 9.0)),
+            );
+        }
+        let exponent = (N - 1) / 2;
+        let power = (1..exponent).fold(Lanes::splat(1.0), |product, _| product * v);
+        (power * v, power * exponent as f64)
+    }
+}
+
+/// A search, as `pulp` compiles it for wider vectors.
+struct Asking<'a, const N: usize, C> {
+    question: &'a Question,
+    pack: &'a mut Pack,
+    ray: &'a Ray,
+    stretch: (f64, f64),
+    counter: &'a mut C,
+}
+
+impl<const N: usize, C: Counter> WithSimd for Asking<'_, N, C> {
+    type Output = Answer;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Answer {
+        let local = self.pack.local(self.ray, self.stretch);
+        self.pack.project(self.ray, &local);
+        self.question.search::<N>(self.pack, &local, self.stretch, self.counter)
+    }
+}
+
+/// Multiplies a polynomial of so high a degree by one of degree two.
+#[inline(always)]
+fn multiply<const N: usize>(
+    product: &mut [Lanes<f32>; N],
+    [first, second, third]: &[Lanes<f32>; 3],
+    degree: usize,
+) {
+    for k in (0..=degree + 2).rev() {
+        let mut term = Lanes::splat(0.0);
+        if k <= degree {
+            term += product[k] * *first;
+        }
+        if k >= 1 && k <= degree + 1 {
+            term += product[k - 1] * *second;
+        }
+        if k >= 2 {
+            term += product[k - 2] * *third;
+        }
+        product[k] = term;
+    }
+}
+
+/// Enclosures of what is to cross zero upwards, in Bernstein coefficients: F − T on the way in,
+/// T − F on the way out.
+struct Sums<const N: usize> {
+    upper: [f64; N],
+    lower: [f64; N],
+    /// At the interval's ends at least this: there the raised parabolas are the true ones.
+    ends: [f64; 2],
+    /// Whether the field is a polynomial on the interval: no support's rim is in it.
+    is_exact: bool,
+}
+
+impl<const N: usize> Sums<N> {
+    #[inline(always)]
+    fn new(
+        question: &Question,
+        parts: usize,
+        most: &[Lanes<f32>; N],
+        least: &[Lanes<f32>; N],
+        error: Lanes<f32>,
+    ) -> Option<Self> {
+        let inverses = const { inverse_binomials::<N>() };
+        // Products and sums of non-negative terms: one rounding each.
+        let rounding = (parts + 4 * N + 16) as f64 * f64::from(UNIT);
+        let error = f64::from(error.sum()) * 1.0001;
+        // Not a number, where margins of balls that are tiny beside the leaf overflow.
+        if error.is_nan() || error >= question.threshold {
+            return None;
+        }
+        let most: [f64; N] = std::array::from_fn(|k| f64::from(most[k].sum()) * inverses[k]);
+        let least: [f64; N] = std::array::from_fn(|k| f64::from(least[k].sum()) * inverses[k]);
+        let is_exact = most == least;
+        let up = |c: f64| c * (1.0 + rounding) + error - question.threshold;
+        let down = |c: f64| c * (1.0 - rounding) - error - question.threshold;
+        let ends = [most[0], most[N - 1]];
+        Some(match question.crossing {
+            Crossing::In => {
+                Self { upper: most.map(up), lower: least.map(down), ends: ends.map(down), is_exact }
+            }
+            Crossing::Out => Self {
+                upper: least.map(|c| -down(c)),
+                lower: most.map(|c| -up(c)),
+                ends: ends.map(|c| -up(c)),
+                is_exact,
+            },
+        })
+    }
+
+    /// Whether the signs of the true coefficients, wherever between the two they lie, change once,
+    /// from below to above.
+    #[inline(always)]
+    fn changes_sign_once(&self) -> bool {
+        let below = self.upper.iter().take_while(|&&c| c < 0.0).count();
+        let above = self.lower.iter().rev().take_while(|&&c| c > 0.0).count();
+        below >= 1 && above >= 1 && below + above + 1 >= N
+    }
+
+    #[inline(always)]
+    fn middle(&self) -> [f64; N] {
+        std::array::from_fn(|k| 0.5 * (self.upper[k] + self.lower[k]))
+    }
+}
+
+/// The unit vector out of the surface; against the ray where the gradient is zero.
+pub(super) fn outward(gradient: DVec3, ray: &Ray) -> Vec3 {
+    // Scaled first: the squares of tiny components would be lost.
+    let scaled = gradient / -gradient.abs().max_element();
+    let normal = scaled.try_normalize().map(DVec3::as_vec3);
+    normal.unwrap_or_else(|| (-ray.direction).normalize_or_zero())
+}
