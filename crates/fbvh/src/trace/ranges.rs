@@ -206,17 +206,18 @@ impl Search<'_> {
             let (v_start, v_end) = (chords.v(chord, low), chords.v(chord, high));
             let q = chord.strength;
             most += q * value_at(v_most);
-            least += q * value_at(v_start.min(v_end) - chord.margin);
+            let v_least = v_start.min(v_end) - chord.margin;
+            least += q * value_at(v_least);
             end_most += q * value_at(v_end + chord.margin);
             end_least += q * value_at(v_end - chord.margin);
             // Slopes are steep towards the projection, and 2·q·k′/R² times the way to it.
             let gentle = || slope_at(v_start - chord.margin).min(slope_at(v_end - chord.margin));
+            let steepest = self.steepest(v_least, v_most);
             let (gain, loss) = if chord.middle >= high {
-                (self.steepest(v_most) * (chord.middle - low), -gentle() * (chord.middle - high))
+                (steepest * (chord.middle - low), -gentle() * (chord.middle - high))
             } else if chord.middle <= low {
-                (-gentle() * (low - chord.middle), self.steepest(v_most) * (high - chord.middle))
+                (-gentle() * (low - chord.middle), steepest * (high - chord.middle))
             } else {
-                let steepest = self.steepest(v_most);
                 (steepest * (chord.middle - low), steepest * (high - chord.middle))
             };
             let factor = 2.0 * q * chord.inverse_square;
@@ -240,12 +241,14 @@ impl Search<'_> {
         }
     }
 
-    /// The greatest derivative of the kernel by v from the rim up to `v`. It grows with v but for
-    /// Perlin's kernel, where it is greatest at ρ = 1/3.
-    fn steepest(&self, v: f64) -> f64 {
+    /// The greatest derivative of the kernel by v between two of its values. It grows with v, but
+    /// for Perlin's kernel, where it is greatest at ρ = 1/3.
+    fn steepest(&self, least: f64, most: f64) -> f64 {
+        const PERLINS: f64 = 8.0 / 9.0;
         match self.kernel {
-            Kernel::Perlin if v > 8.0 / 9.0 => 20.0 / 9.0,
-            kernel => -kernel.slope(1.0 - v.min(1.0)),
+            Kernel::Perlin if least > PERLINS => -self.kernel.slope(1.0 - least),
+            Kernel::Perlin if most > PERLINS => 20.0 / 9.0,
+            kernel => -kernel.slope(1.0 - most.min(1.0)),
         }
     }
 
