@@ -292,9 +292,10 @@ fn false_answer(
     if truth.is_ambiguous() {
         return None;
     }
-    // What is promised is 1e4 radii. Beyond, f64 may not tell, and then must say so.
+    // What is promised is 1e4 radii, and kernels whose slope does not vanish inside: Perlin's does at
+    // centres. Beyond, f64 may not tell, and then must say so.
     let radii = |ball: Metaball| ball.center.distance(ray.origin) / ball.radius;
-    let promised = scene.balls().all(|ball| radii(ball) < 1e5);
+    let promised = scene.kernel() != Kernel::Perlin && scene.balls().all(|ball| radii(ball) < 1e5);
     if !promised && [hit.verdict, any, exit.verdict].contains(&Verdict::Undecided) {
         return None;
     }
@@ -304,7 +305,7 @@ fn false_answer(
         return Some(format!("first {:?}, any {any:?}: {truth:?}", hit.verdict));
     }
     if hit.is_hit() && !near(f64::from(hit.t), truth.t) {
-        return Some(format!("hit at {}: {truth:?}", hit.t));
+        return Some(format!("{hit:?}: {truth:?}"));
     }
     if truth.verdict != Verdict::Inside || truth.leaves >= f64::from(ray.t_max) {
         return (exit != Hit::MISS).then(|| format!("{exit:?}: {truth:?}"));

@@ -218,8 +218,9 @@ impl Question {
             if !(t >= f64::from(start) && t <= f64::from(end)) {
                 return Answer::Unclear;
             }
-            // The next error is about the square of this, over the interval's length.
-            if step.abs() <= 1e-5 * f64::from(local.half) {
+            // An f32 holds no more. Not sooner: behind the rim of a support slopes may differ, and
+            // then the next error is as large as the step.
+            if step.abs() <= 1e-8 * f64::from(local.half) {
                 let t = local.base + t;
                 // Past the ray's end by a rounding: too close to call here.
                 return if t <= stretch.1 {
@@ -264,7 +265,9 @@ impl Question {
             );
         }
         let exponent = (N - 1) / 2;
-        let power = (1..exponent).fold(Lanes::splat(1.0), |product, _| product * v);
+        // Outside the support the slope is zero, of α = 1 too.
+        let inside = v.map(|v| if v > 0.0 { 1.0 } else { 0.0 });
+        let power = (1..exponent).fold(inside, |product, _| product * v);
         (power * v, power * exponent as f64)
     }
 }
