@@ -4,6 +4,7 @@ use metaball_core::{Kernel, Scene};
 
 use crate::cameras::{framing, walk_around};
 use crate::error::LoadError;
+use crate::figures::{self, Walk};
 use crate::file::{FileKind, unpack};
 use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
 use crate::small::{self, Shot};
@@ -29,11 +30,13 @@ enum Recipe {
     Generated(&'static str),
     /// A file of this package, and where it is seen from (from the middle to the eye).
     Data(FileKind, &'static str, &'static [u8], [f32; 3]),
+    /// A figure of a paper.
+    Figure(fn() -> Result<Walk, LoadError>),
     /// Made by hand.
     Small(fn() -> Result<Shot, LoadError>),
 }
 
-use Recipe::{Data, Generated, Small};
+use Recipe::{Data, Figure, Generated, Small};
 
 /// All known scenes, the large ones first.
 pub fn known() -> &'static [KnownScene] {
@@ -88,6 +91,26 @@ const KNOWN: &[KnownScene] = &[
     large("tornado-4k", "A tornado of 4,000 balls, dense.", Generated("tornado:4000")),
     large("tornado-128k", "A tornado of 128,000 balls, dense.", Generated("tornado:128000")),
     large("pool-10k", "A tank of fluid of 10,000 balls, dense.", Generated("pool:10000")),
+    large(
+        "random-1k",
+        "1,000 balls of random radii (Kanamori, figure 1).",
+        Generated("random:1000"),
+    ),
+    large(
+        "fluid-120k",
+        "A tank of 120,000 balls (Kanamori, figure 10, left).",
+        Figure(figures::fluid),
+    ),
+    large(
+        "fluid-close-up",
+        "The same from near, at the splash (Kanamori, figure 10, right).",
+        Figure(figures::fluid_close_up),
+    ),
+    large(
+        "fountain-100k",
+        "A fountain of 100,000 balls (Kanamori, figure 12).",
+        Generated("fountain:100000"),
+    ),
     small("one-power-1", "One ball, power kernel α = 1.", Small(|| small::one_power(1))),
     small("one-power-2", "One ball, power kernel α = 2.", Small(|| small::one_power(2))),
     small("one-power-3", "One ball, power kernel α = 3.", Small(|| small::one_power(3))),
@@ -99,6 +122,11 @@ const KNOWN: &[KnownScene] = &[
     small("one-wyvill", "One ball, Wyvill's kernel.", Small(|| small::one(Kernel::Wyvill))),
     small("one-perlin", "One ball, Perlin's kernel.", Small(|| small::one(Kernel::Perlin))),
     small("two-merging", "Two balls with one surface.", Small(small::two_merging)),
+    small(
+        "five-close-up",
+        "Five balls that fill 80 % of the picture, Wyvill's kernel (Kanamori, section 6).",
+        Small(figures::five_close_up),
+    ),
     small(
         "fifteen-coincident",
         "Fifteen balls at one place, one more than Kanamori's lists hold.",
@@ -154,6 +182,7 @@ impl KnownScene {
                 let (bounds, seen_from) = (scene.bounds(), seen_from.into());
                 (scene, framing(&bounds, seen_from), walk_around(&bounds, seen_from))
             }
+            Figure(make) => make()?,
             Small(make) => {
                 let (scene, camera) = make()?;
                 (scene, camera, Vec::new())

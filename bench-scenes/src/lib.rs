@@ -18,6 +18,7 @@ mod density;
 mod elements;
 mod error;
 mod exact;
+mod figures;
 mod file;
 mod generate;
 mod guard;
