@@ -61,6 +61,7 @@ pub const MODULES: &[Module] = &[
     import!("core/scene"),
     import!("core/field"),
     import!("core/cover"),
+    import!("core/beside"),
     import!("kernel/power"),
     import!("kernel/wyvill"),
     import!("kernel/perlin"),
@@ -129,4 +130,7 @@ pub const MODULES: &[Module] = &[
     import!("kanamori_peel/clipping_original"),
     import!("kanamori_peel/list"),
     entry!("kanamori_peel/test"),
+    import!("kanamori_robust/lists"),
+    entry!("kanamori_robust/register"),
+    entry!("kanamori_robust/search"),
 ];

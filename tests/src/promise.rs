@@ -51,11 +51,10 @@ pub fn promise_of(method: &str) -> Promise {
         "fbvh" => Promise::Projection,
         "bvh" => Promise::ProjectionOfCover,
         "kanamori" => Promise::Peeling { list_capacity: 14, distinct_points: false },
-        "kanamori-robust" => Promise::Peeling { list_capacity: 29, distinct_points: true },
         "illes" | "illes-compute" => Promise::Fragments { piece: Piece::Cubic, room: MOST_ROOM },
         "illes-absolute" => Promise::Fragments { piece: Piece::AbsoluteCubic, room: MOST_ROOM },
         "illes-exact" => Promise::Fragments { piece: Piece::Exact, room: MOST_ROOM },
-        "fbvh-certified" | "illes-robust" => Promise::Always,
+        "fbvh-certified" | "kanamori-robust" | "illes-robust" => Promise::Always,
         _ => panic!("method {method}: needed a line in promise_of, found none"),
     }
 }

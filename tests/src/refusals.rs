@@ -13,12 +13,8 @@ pub struct Refusal {
     pub reason: &'static str,
 }
 
-const REFUSALS: &[Refusal] = &[
-    no_polynomial("kanamori"),
-    no_polynomial("kanamori-robust"),
-    above_degree_six("illes-exact"),
-    above_degree_six("illes-robust"),
-];
+const REFUSALS: &[Refusal] =
+    &[no_polynomial("kanamori"), above_degree_six("illes-exact"), above_degree_six("illes-robust")];
 
 const fn no_polynomial(method: &'static str) -> Refusal {
     Refusal {

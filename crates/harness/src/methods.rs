@@ -63,13 +63,12 @@ pub const METHODS: &[Method] = &[
     },
     Method {
         name: "kanamori-robust",
-        title: "Depth peeling, distinct",
-        paper: "not published: points that coincide are told apart, lists are longer",
-        about: "As kanamori, but points with one distance are peeled by the index of their balls, \
-                and a list holds 29 balls.",
+        title: "Tiles, searched",
+        paper: "not published: the peeling of Kanamori et al. 2008 replaced by a search",
+        about: "Balls are registered with tiles of the picture; each ray searches its tile's list by \
+                intervals with exact bounds, so that neither coincident points nor crowds matter.",
         make: |counting| {
-            let options = kanamori_peel::Options::robust();
-            Box::new(kanamori_peel::Renderer::new("kanamori-robust", options, counting))
+            Box::new(kanamori_peel::robust::Renderer::new("kanamori-robust", counting))
         },
     },
     Method {

@@ -58,7 +58,8 @@
 //! printed, but adds nothing outside its own chord: what is lost can make a surface late, never
 //! early.
 //!
-//! *Not in the paper:* with [`Options::distinct_points`] points with one t are peeled by the index of
+//! *Not in the paper:* [`robust`] is a renderer that is right where section 7 gives up, and
+//! [`baseline`] the CPU version that section 6 compares with. With [`Options::distinct_points`] points with one t are peeled by the index of
 //! their balls, and none is lost. It costs nothing but a number in the list: balls are drawn by
 //! rising index, and the depth test keeps the first.
 //!
@@ -74,11 +75,14 @@
 //! iterations of clipping, in all and in the longest search. 144 bytes a pixel with K = 14. At most
 //! 16,640,000 balls: indices are kept as f32.
 
+pub mod baseline;
+
 mod balls;
 mod layers;
 mod options;
 mod pipelines;
 mod renderer;
+pub mod robust;
 #[cfg(test)]
 mod tests;
 mod tiles;

@@ -1,7 +1,9 @@
 //! Tests that look inside.
 
+mod baseline;
 mod curves;
 mod layouts;
 mod options;
 mod random;
 mod rectangles;
+mod robust;

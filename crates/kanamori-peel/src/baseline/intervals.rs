@@ -1,0 +1,116 @@
+//! Nishita and Nakamae's intervals along one ray (section 3.1).
+
+use metaball_core::Scene;
+
+use super::bernstein::Sum;
+use super::clipping::Search;
+
+/// A ball along a ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Chord {
+    /// t of the centre's projection.
+    pub(super) middle: f64,
+    /// Half the chord, squared; not negative.
+    pub(super) half_squared: f64,
+    /// 1/R².
+    pub(super) inverse_square: f64,
+    /// q.
+    pub(super) strength: f64,
+    /// The same as `half_squared` for the ball's kernel sphere; negative where the ray misses it.
+    pub(super) kernel_half_squared: f64,
+}
+
+impl Chord {
+    pub(super) fn enter(&self) -> f64 {
+        self.middle - self.half_squared.sqrt()
+    }
+
+    pub(super) fn leave(&self) -> f64 {
+        self.middle + self.half_squared.sqrt()
+    }
+
+    /// Where the ray enters the kernel sphere, 0 with its start inside; infinite where it does not.
+    pub(super) fn kernel_sphere(&self) -> f64 {
+        if self.kernel_half_squared < 0.0 {
+            return f64::INFINITY;
+        }
+        let half = self.kernel_half_squared.sqrt();
+        if self.middle + half < 0.0 { f64::INFINITY } else { (self.middle - half).max(0.0) }
+    }
+}
+
+/// The points of a ray in order, up to its nearest kernel sphere.
+#[derive(Debug)]
+pub(super) struct Intervals {
+    /// t, and whose chord begins or ends there.
+    points: Vec<(f64, usize)>,
+    kernel_sphere: f64,
+}
+
+impl Intervals {
+    /// Sorts the ends of the chords.
+    pub(super) fn new(chords: &[Chord], kernel_sphere: f64) -> Self {
+        let mut points = Vec::with_capacity(2 * chords.len());
+        for (index, chord) in chords.iter().enumerate() {
+            let enter = chord.enter().max(0.0);
+            if enter <= kernel_sphere {
+                points.push((enter, index));
+                points.push((chord.leave(), index));
+            }
+        }
+        points.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
+        Self { points, kernel_sphere }
+    }
+
+    /// t of the first surface point up to `limit`.
+    pub(super) fn first_hit(
+        &self,
+        scene: &Scene,
+        chords: &[Chord],
+        limit: f64,
+        search: &mut Search,
+    ) -> Option<f64> {
+        let end = self.kernel_sphere.min(limit);
+        let mut active: Vec<usize> = Vec::new();
+        let mut low = 0.0;
+        for &(t, ball) in &self.points {
+            let high = t.min(end);
+            if high > low {
+                if let Some(t) = first_in(scene, chords, &active, (low, high), search) {
+                    return Some(t);
+                }
+                low = high;
+            }
+            if t > end {
+                break;
+            }
+            match active.iter().position(|&other| other == ball) {
+                Some(place) => drop(active.swap_remove(place)),
+                None => active.push(ball),
+            }
+        }
+        // Nothing beyond a kernel sphere comes before the surface: it is a hit by itself.
+        (self.kernel_sphere <= limit).then_some(self.kernel_sphere)
+    }
+}
+
+/// The first root in one interval, over which the same balls are active throughout.
+fn first_in(
+    scene: &Scene,
+    chords: &[Chord],
+    active: &[usize],
+    (low, high): (f64, f64),
+    search: &mut Search,
+) -> Option<f64> {
+    // A ball alone shows its kernel sphere, which the caller knows.
+    if active.len() < 2 {
+        return None;
+    }
+    let mut sum = Sum::below(scene.kernel(), f64::from(scene.threshold()))?;
+    for &ball in active {
+        sum.add(&chords[ball], low, high);
+    }
+    let (points, degree) = sum.control_points();
+    let root = search.first_root(&points, degree)?;
+    Some(low + root * (high - low))
+}

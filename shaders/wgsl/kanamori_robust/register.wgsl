@@ -1,0 +1,147 @@
+// Registers balls with the tiles of the picture: counts, adds up, fills in, and sorts each tile's list.
+
+#import metaball::cover::covering_corner
+#import metaball::kanamori_robust::lists
+#import metaball::kanamori_robust::lists::{entries, Entry, marks}
+#import metaball::scene::{scene, supports}
+#import metaball::status::{report_needed, report_unfinished}
+#import metaball::view::view
+
+@compute @workgroup_size(64)
+fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let ball = id.x + id.y * groups.x * 64u;
+    if ball >= scene.balls {
+        return;
+    }
+    let across = lists::tiles_along(view.width, lists::tile_side());
+    let range = tiles_of_ball(ball);
+    for (var row = range.first.y; row < range.end.y; row++) {
+        for (var column = range.first.x; column < range.end.x; column++) {
+            atomicAdd(&marks[row * across + column], 1u);
+        }
+    }
+}
+
+const THREADS: u32 = 256u;
+var<workgroup> sums: array<u32, THREADS>;
+
+// Turns counts into places, in one workgroup: each invocation adds up a run of tiles.
+@compute @workgroup_size(256)
+fn place_tiles(@builtin(local_invocation_index) thread: u32) {
+    let run = lists::MOST_TILES / THREADS;
+    var sum = 0u;
+    var longest = 0u;
+    for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
+        let count = atomicLoad(&marks[tile]);
+        sum += count;
+        longest = max(longest, count);
+    }
+    if longest > lists::MOST_ENTRIES {
+        report_unfinished();
+        report_needed(1u, longest);
+    }
+    sums[thread] = sum;
+    workgroupBarrier();
+    var place = 0u;
+    for (var before = 0u; before < thread; before++) {
+        place += sums[before];
+    }
+    for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
+        place += atomicExchange(&marks[tile], place);
+    }
+    if thread == THREADS - 1u && place > arrayLength(&entries) {
+        report_unfinished();
+        report_needed(0u, place);
+    }
+}
+
+@compute @workgroup_size(64)
+fn fill_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let ball = id.x + id.y * groups.x * 64u;
+    if ball >= scene.balls {
+        return;
+    }
+    let support = supports[ball];
+    let distance = length(support.center - view.eye);
+    // The difference, the length and the direction's own length err by a few parts in 2^23.
+    let near = distance - support.radius - 8.0 * 0x1p-23f * (distance + support.radius);
+    let across = lists::tiles_along(view.width, lists::tile_side());
+    let range = tiles_of_ball(ball);
+    for (var row = range.first.y; row < range.end.y; row++) {
+        for (var column = range.first.x; column < range.end.x; column++) {
+            let place = atomicAdd(&marks[row * across + column], 1u);
+            if place < arrayLength(&entries) {
+                entries[place] = Entry(near, ball);
+            }
+        }
+    }
+}
+
+// Columns and rows of tiles, first and behind the last, that a ball's rectangle meets.
+struct TileRange {
+    first: vec2<u32>,
+    end: vec2<u32>,
+}
+
+fn tiles_of_ball(ball: u32) -> TileRange {
+    let support = supports[ball];
+    let low = covering_corner(support.center, support.radius, 0u).xy;
+    let high = covering_corner(support.center, support.radius, 3u).xy;
+    if low.x >= high.x || low.y >= high.y {
+        return TileRange(vec2(0u), vec2(0u));
+    }
+    // Rows count from the top.
+    let size = vec2(f32(view.width), f32(view.height));
+    let first = 0.5 * vec2(1.0 + low.x, 1.0 - high.y) * size;
+    let last = 0.5 * vec2(1.0 + high.x, 1.0 - low.y) * size;
+    let side = lists::tile_side();
+    let tiles = vec2(lists::tiles_along(view.width, side), lists::tiles_along(view.height, side));
+    return TileRange(vec2<u32>(first) / side, min(vec2<u32>(last) / side + 1u, tiles));
+}
+
+var<workgroup> range_of_tile: vec2<u32>;
+
+// Sorts a tile's list, one workgroup a tile: Batcher's bitonic merges, all rising. What is behind the
+// list's end counts as greatest and stays there.
+@compute @workgroup_size(256)
+fn sort_entries(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    if thread == 0u {
+        let list = lists::list_of(group.x);
+        range_of_tile = vec2(list.x, min(list.y, list.x + lists::MOST_ENTRIES));
+    }
+    let range = workgroupUniformLoad(&range_of_tile);
+    let length = range.y - range.x;
+    for (var block = 2u; block < 2u * length; block *= 2u) {
+        exchange(range, thread, block, true);
+        storageBarrier();
+        for (var part = block / 2u; part > 1u; part /= 2u) {
+            exchange(range, thread, part, false);
+            storageBarrier();
+        }
+    }
+}
+
+// One step of a merge: in each block, the first half against the second, as it lies or mirrored.
+fn exchange(range: vec2<u32>, thread: u32, block: u32, mirrored: bool) {
+    let half = block / 2u;
+    let length = range.y - range.x;
+    // Pairs up to the block that holds the list's end.
+    let pairs = (length + block - 1u) / block * half;
+    for (var pair = thread; pair < pairs; pair += THREADS) {
+        let start = pair / half * block;
+        let within = pair % half;
+        let one = start + within;
+        let other = start + select(half + within, block - 1u - within, mirrored);
+        if other < length {
+            let low = entries[range.x + one];
+            let high = entries[range.x + other];
+            if high.near < low.near || high.near == low.near && high.ball < low.ball {
+                entries[range.x + one] = high;
+                entries[range.x + other] = low;
+            }
+        }
+    }
+}

@@ -1,0 +1,371 @@
+// Finds the first hit of each ray without peeling: by intervals of the ray on which every ball's least
+// and greatest share of the field is known in closed form. An interval with a field below T throughout
+// is passed; one that certainly rises through T holds one root; any other is halved. No point at which
+// a ball begins or ends matters, so none can be lost, and there is no list to overflow.
+//
+// Distances are kept from a base on the ray, close by: see beside.wgsl. A ray whose work exceeds the
+// budget waits for the next dispatch.
+
+#import metaball::beside::{beside, Beside, offset_to, UNIT}
+#import metaball::color::{blend_add, blend_start, blend_write}
+#import metaball::field::{contribution, gradient}
+#import metaball::hit
+#import metaball::kanamori_robust::lists
+#import metaball::kanamori_robust::lists::entries
+#import metaball::kernel::{kernel, kernel_slope, steepest_slope}
+#import metaball::scene::{scene, supports}
+#import metaball::status::{report_finished, report_needed, report_unfinished}
+#import metaball::strength::strength
+#import metaball::view::{in_picture, pixel_at, rays, Ray}
+#import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test, write_work}
+
+// Iterations after which a ray waits. Before it looks again, one pass over skipped balls and two walks
+// along a window may follow.
+@id(44) override budget: u32 = 16384u;
+
+// Balls that one interval can reach: MOST_WINDOW of crates/kanamori-peel/src/robust.rs.
+const MOST_WINDOW: u32 = 12288u;
+// An interval of this part of the smallest radius in it is short: a root in it is known well enough.
+const SHORT: f32 = 0x1p-20f;
+
+// Stages of a search; a cleared state begins.
+const BEGIN: u32 = 0u;
+const NARROW: u32 = 1u;
+const SOLVE: u32 = 2u;
+const DONE: u32 = 3u;
+
+// A search as it stands. Nothing before `low` reaches T; from there to `probe` the field rises; the
+// interval looked at is from `probe` to `high`. All three are t less `base`. Twin: State of
+// crates/kanamori-peel/src/robust/room.rs.
+struct State {
+    stage: u32,
+    // The first entry of the tile's list that does not end before `probe`.
+    first: u32,
+    base: f32,
+    low: f32,
+    probe: f32,
+    high: f32,
+}
+
+@group(2) @binding(2) var<storage, read_write> states: array<State>;
+
+var<private> state: State;
+var<private> here: Beside;
+// The end of the tile's list, and what has been spent of the budget.
+var<private> list_end: u32;
+var<private> spent: u32;
+
+@compute @workgroup_size(8, 8)
+fn search(@builtin(global_invocation_id) id: vec3<u32>) {
+    if !in_picture(id.xy) {
+        return;
+    }
+    let pixel = pixel_at(id.xy);
+    state = states[pixel];
+    if state.stage == DONE {
+        return;
+    }
+    let ray = rays[pixel];
+    let list = lists::list_of(lists::tile_at(id.xy));
+    list_end = list.y;
+    let begins = state.stage == BEGIN;
+    if begins {
+        begin(pixel, ray, list.x);
+    } else {
+        here = beside(ray, state.base);
+    }
+    while state.stage != DONE && spent < budget {
+        if state.stage == NARROW {
+            narrow(pixel, ray);
+        } else {
+            solve(pixel, ray);
+        }
+    }
+    write_work(pixel);
+    states[pixel] = state;
+    if begins && state.stage != DONE {
+        report_unfinished();
+    } else if !begins && state.stage == DONE {
+        report_finished();
+    }
+}
+
+fn begin(pixel: u32, ray: Ray, first: u32) {
+    state.first = first;
+    if first == list_end {
+        miss(pixel);
+        return;
+    }
+    let ball = entries[first].ball;
+    let near = max(entries[first].near, 0.0);
+    state.stage = NARROW;
+    state.base = near;
+    state.high = supports[ball].radius;
+    rebase(ray);
+    if near == 0.0 {
+        let start = bounds_on(ray.direction, 0.0, 0.0);
+        if start.end_least >= scene.threshold {
+            surface(pixel, ray, 0.0, hit::INSIDE);
+        } else if start.most >= scene.threshold {
+            undecided(pixel, ray);
+        }
+    }
+}
+
+// Moves the base to `probe`, rounded to twenty bits so that differences of bases are exact. Distances
+// are taken a little further than they are, as their own rounding may need.
+fn rebase(ray: Ray) {
+    let there = state.base + state.probe;
+    let next = bitcast<f32>(bitcast<u32>(there) & 0xfffffff0u);
+    let moved = next - state.base;
+    let slack = 2.0 * UNIT * abs(moved);
+    state.low -= moved + slack;
+    state.probe -= moved + slack;
+    state.high -= moved - slack;
+    state.base = next;
+    here = beside(ray, next);
+}
+
+// Looks at one interval.
+fn narrow(pixel: u32, ray: Ray) {
+    skip_passed();
+    if spent >= 2u * budget {
+        return;
+    }
+    if state.first == list_end {
+        miss(pixel);
+        return;
+    }
+    // Where no ball reaches, the search goes on at the next.
+    let gap = (entries[state.first].near - state.base) * (1.0 - 2.0 * UNIT);
+    if gap > state.probe {
+        state.low = gap;
+        state.probe = gap;
+        state.high = gap + supports[entries[state.first].ball].radius;
+    }
+    if state.probe > state.high - state.probe {
+        rebase(ray);
+    }
+    let end = ray.t_max - state.base;
+    if state.probe >= end {
+        miss(pixel);
+        return;
+    }
+    state.high = min(state.high, end);
+
+    count_leaf_test();
+    let width = state.high - state.probe;
+    let bounds = bounds_on(ray.direction, state.probe, state.high);
+    let rises = bounds.least_slope > 0.0;
+    var is_below = bounds.most < scene.threshold;
+    if !is_below && rises && bounds.end_least <= scene.threshold {
+        // What rises is greatest at its end.
+        is_below = bounds_on(ray.direction, state.high, state.high).most < scene.threshold;
+    }
+    let is_short = width <= SHORT * bounds.radius;
+    if bounds.end_least > scene.threshold && (rises || is_short) {
+        state.stage = SOLVE;
+    } else if is_below || rises {
+        // All below T; or rising so close to T that the next interval must tell.
+        if state.high >= end && !is_below {
+            undecided(pixel, ray);
+        }
+        state.low = select(state.low, state.high, is_below);
+        state.probe = state.high;
+        state.high += 2.0 * width;
+    } else {
+        let middle = state.probe + 0.5 * width;
+        // No float is left between the ends, or none that would tell anything.
+        if middle <= state.probe || middle >= state.high || is_short {
+            undecided(pixel, ray);
+        }
+        state.high = middle;
+    }
+    if bounds.is_crowded {
+        // Never finished: the frame stays incomplete, and its method says why.
+        report_unfinished();
+        report_needed(2u, MOST_WINDOW + 1u);
+        state.stage = DONE;
+    }
+}
+
+// Balls at the front of the list that end before `probe`.
+fn skip_passed() {
+    while state.first < list_end && spent < 2u * budget {
+        let entry = entries[state.first];
+        let width = 2.0 * supports[entry.ball].radius;
+        let far = entry.near - state.base + width + 64.0 * UNIT * (abs(entry.near) + width);
+        if far >= state.probe {
+            return;
+        }
+        state.first++;
+        spent++;
+    }
+}
+
+// One root between `low` and `high`, or too short a way between them to matter: Newton's steps, kept
+// between the ends (Press et al., rtsafe).
+fn solve(pixel: u32, ray: Ray) {
+    var t = 0.5 * (state.low + state.high);
+    for (var step = 0u; step < 48u; step++) {
+        if spent >= budget {
+            return;
+        }
+        count_iterations(1u);
+        let value = field_and_slope(ray.direction, t);
+        if value.x >= 0.0 {
+            state.high = t;
+        } else {
+            state.low = t;
+        }
+        var next = t - value.x / select(value.y, 1.0, value.y == 0.0);
+        if next <= state.low || next >= state.high {
+            next = 0.5 * (state.low + state.high);
+        }
+        let is_last = abs(next - t) <= 4.0 * UNIT * max(abs(t), abs(next));
+        t = next;
+        if is_last || next <= state.low || next >= state.high {
+            break;
+        }
+    }
+    surface(pixel, ray, t, hit::HIT);
+}
+
+// What is certain of the field on an interval, and what it is at the interval's end.
+struct Bounds {
+    // Nowhere more than this.
+    most: f32,
+    // The slope is nowhere less, 1/scene unit.
+    least_slope: f32,
+    // At the end: certainly at least this.
+    end_least: f32,
+    // Least radius among the balls that reach the interval.
+    radius: f32,
+    // Whether more balls may reach the interval than were looked at.
+    is_crowded: bool,
+}
+
+// One walk along the balls that may reach the interval.
+//
+// A ball's share is greatest at the interval's nearest point to its projection and least at an end; the
+// slope 2 q kernel'(v) (middle - t) / R^2 is of one sign on either side of the projection. Rounding
+// moves v = 1 - r^2/R^2 by at most 26 units, and 12 units for each radius of the stretch (numerics,
+// section 9); what the view from beside lacks comes on top, twice.
+fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
+    let margin_length = 12.0 * UNIT * max(abs(low), abs(high)) + 2.1 * here.misplaced;
+    var most = 0.0;
+    var least_slope = 0.0;
+    var end_least = 0.0;
+    var radius = 1e38;
+    var place = state.first;
+    let end = min(list_end, state.first + MOST_WINDOW);
+    for (; place < end; place++) {
+        let entry = entries[place];
+        if entry.near - state.base > high + 2.0 * UNIT * abs(high) {
+            break;
+        }
+        let support = supports[entry.ball];
+        let offset = offset_to(here, support.center);
+        let middle = dot(offset, direction);
+        let off_axis = offset - middle * direction;
+        let inverse_radius = 1.0 / support.radius;
+        let inverse_square = inverse_radius * inverse_radius;
+        let off_square = dot(off_axis, off_axis);
+        let margin = 26.0 * UNIT + margin_length * inverse_radius;
+
+        let near = clamp(middle, low, high) - middle;
+        let v_most = 1.0 - (off_square + near * near) * inverse_square + margin;
+        if v_most <= 0.0 {
+            continue;
+        }
+        let to_end = high - middle;
+        let to_start = low - middle;
+        let v_end = 1.0 - (off_square + to_end * to_end) * inverse_square;
+        let v_start = 1.0 - (off_square + to_start * to_start) * inverse_square;
+        let q = strength(entry.ball);
+        most += q * kernel(v_most);
+        end_least += q * kernel(v_end - margin);
+        var slope = 0.0;
+        if middle >= high {
+            let gentlest = min(kernel_slope(v_start - margin), kernel_slope(v_end - margin));
+            slope = gentlest * max(middle - high, 0.0) * (1.0 - 16.0 * UNIT);
+        } else {
+            slope = -steepest_slope(v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
+        }
+        least_slope += 2.0 * q * inverse_square * slope;
+        radius = min(radius, support.radius);
+    }
+    let balls = place - state.first;
+    count_balls(balls);
+    count_evaluations(balls);
+    spent += balls + 1u;
+    // The sum of n terms of one sign, each of a few products, errs by less than this part of it.
+    let summing = f32(balls + 24u) * UNIT;
+    let is_crowded = balls == MOST_WINDOW && place < list_end;
+    return Bounds(
+        most * (1.0 + summing), least_slope, end_least * (1.0 - summing), radius, is_crowded,
+    );
+}
+
+// The field less T and its slope: best values, no bounds.
+fn field_and_slope(direction: vec3<f32>, t: f32) -> vec2<f32> {
+    var sum = vec2(-scene.threshold, 0.0);
+    let end = min(list_end, state.first + MOST_WINDOW);
+    var place = state.first;
+    for (; place < end; place++) {
+        let entry = entries[place];
+        if entry.near - state.base > state.high + 2.0 * UNIT * abs(state.high) {
+            break;
+        }
+        let support = supports[entry.ball];
+        let offset = offset_to(here, support.center);
+        let middle = dot(offset, direction);
+        let off_axis = offset - middle * direction;
+        let along = t - middle;
+        let square = support.radius * support.radius;
+        let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
+        sum += strength(entry.ball) * vec2(kernel(v), -2.0 * along / square * kernel_slope(v));
+    }
+    count_evaluations(place - state.first);
+    spent += place - state.first + 1u;
+    return sum;
+}
+
+fn miss(pixel: u32) {
+    hit::write_miss(pixel);
+    state.stage = DONE;
+}
+
+fn undecided(pixel: u32, ray: Ray) {
+    let t = clamp(state.base + state.probe, 0.0, ray.t_max);
+    hit::write_hit(pixel, t, -ray.direction, hit::UNDECIDED);
+    state.stage = DONE;
+}
+
+// Writes a hit at a t less the base, with its normal and colour.
+fn surface(pixel: u32, ray: Ray, t: f32, status: u32) {
+    var slope = vec3(0.0);
+    blend_start();
+    let end = min(list_end, state.first + MOST_WINDOW);
+    for (var place = state.first; place < end; place++) {
+        let entry = entries[place];
+        if entry.near - state.base > t + 4.0 * UNIT * abs(t) {
+            break;
+        }
+        let support = supports[entry.ball];
+        let to_center = offset_to(here, support.center);
+        let middle = dot(to_center, ray.direction);
+        let along = t - middle;
+        let off_axis = to_center - middle * ray.direction;
+        let square = support.radius * support.radius;
+        let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
+        slope += gradient(entry.ball, v, along * ray.direction - off_axis, support.radius);
+        blend_add(entry.ball, contribution(entry.ball, v));
+    }
+    blend_write(pixel);
+    // Where the field is flat, as at a lone centre, the surface faces the ray.
+    let steepness = length(slope);
+    let normal = select(-ray.direction, -slope / steepness, steepness > 0.0);
+    hit::write_hit(pixel, clamp(state.base + t, 0.0, ray.t_max), normal, status);
+    state.stage = DONE;
+}
