@@ -26,8 +26,6 @@ pub enum Promise {
     Peeling {
         /// K, the balls that a list holds.
         list_capacity: usize,
-        /// Whether the method tells coincident points apart after all.
-        distinct_points: bool,
     },
     /// Illés and Szécsi: rays whose truth is clearer than the cubic is near the kernel (section 3);
     /// with exact polynomials every ray. Section 6: more separators than a ray's array holds are
@@ -50,7 +48,7 @@ pub fn promise_of(method: &str) -> Promise {
     match method {
         "fbvh" => Promise::Projection,
         "bvh" => Promise::ProjectionOfCover,
-        "kanamori" => Promise::Peeling { list_capacity: 14, distinct_points: false },
+        "kanamori" => Promise::Peeling { list_capacity: 14 },
         "illes" | "illes-compute" => Promise::Fragments { piece: Piece::Cubic, room: MOST_ROOM },
         "illes-absolute" => Promise::Fragments { piece: Piece::AbsoluteCubic, room: MOST_ROOM },
         "illes-exact" => Promise::Fragments { piece: Piece::Exact, room: MOST_ROOM },
@@ -62,10 +60,9 @@ pub fn promise_of(method: &str) -> Promise {
 impl Promise {
     /// Whether the method must find the first hit of this ray. For rays that hit.
     pub fn holds(self, scene: &Scene, ray: &Ray, truth: &Truth) -> bool {
-        if let Self::Peeling { list_capacity, distinct_points } = self {
+        if let Self::Peeling { list_capacity } = self {
             let points = Points::up_to(truth.t, scene, ray);
-            let none_is_lost = distinct_points || points.coincident == 0;
-            return none_is_lost && points.overlap <= list_capacity;
+            return points.coincident == 0 && points.overlap <= list_capacity;
         }
         if let Self::Fragments { .. } = self {
             let stand_in = self.stand_in(scene, ray);
@@ -98,10 +95,9 @@ impl Promise {
         if let Self::Fragments { room, .. } = self {
             return may_overflow(room as usize, scene, ray);
         }
-        let Self::Peeling { list_capacity, distinct_points } = self else { return false };
+        let Self::Peeling { list_capacity } = self else { return false };
         let points = Points::up_to(truth.t, scene, ray);
-        let lost = if distinct_points { 0 } else { points.coincident };
-        points.overlap + lost > list_capacity
+        points.overlap + points.coincident > list_capacity
     }
 }
 

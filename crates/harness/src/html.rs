@@ -15,6 +15,15 @@ pub fn fill(template: &str, parts: &[(&str, String)]) -> String {
     page + rest
 }
 
+/// A table under a title; headings and rows are HTML.
+pub fn section(title: &str, headings: &str, rows: &str) -> String {
+    format!(
+        "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>{headings}</tr></thead>\n\
+         <tbody>\n{rows}</tbody></table></div>\n</section>\n",
+        escape(title)
+    )
+}
+
 /// Text as HTML shows it, also between quotation marks.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

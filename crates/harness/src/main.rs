@@ -13,8 +13,7 @@ use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
 use harness::render::{Device, Order, render};
-use harness::tables::gourmel;
-use harness::tables::gourmel::plan::Extent;
+use harness::tables::{gourmel, kanamori};
 use harness::{console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
@@ -101,6 +100,21 @@ enum Paper {
         #[arg(long, value_name = "WxH")]
         size: Option<Size>,
         /// Folder for gourmel.html and gourmel.json.
+        #[arg(long, value_name = "DIR", default_value = "out/tables")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
+    },
+    /// Kanamori et al. 2008: table 1 against the CPU, the optimisations of section 5, time against
+    /// error, figure 8 and the scenes of section 6.
+    Kanamori {
+        /// Small scenes, small pictures: to see that everything works.
+        #[arg(long, conflicts_with = "full")]
+        quick: bool,
+        /// Everything, however long it takes; else what fits into ten minutes, and the rest is named.
+        #[arg(long)]
+        full: bool,
+        /// Folder for kanamori.html and kanamori.json.
         #[arg(long, value_name = "DIR", default_value = "out/tables")]
         out: PathBuf,
         #[command(flatten)]
@@ -225,9 +239,18 @@ fn run(command: Command) -> anyhow::Result<()> {
             render(&Order { scene, overrides, method, size, picture, device, out, hits })
         }
         Command::Tables { paper: Paper::Gourmel { quick, size, out, device } } => {
-            let extent = if quick { Extent::Quick } else { Extent::Whole };
+            let extent =
+                if quick { gourmel::plan::Extent::Quick } else { gourmel::plan::Extent::Whole };
             let size = size.map(|Size(width, height)| (width, height));
             gourmel::tables(&gourmel::Order { extent, size, adapter: device.choice(), out })
+        }
+        Command::Tables { paper: Paper::Kanamori { quick, full, out, device } } => {
+            let extent = match (quick, full) {
+                (true, _) => kanamori::plan::Extent::Quick,
+                (false, false) => kanamori::plan::Extent::Usual,
+                (false, true) => kanamori::plan::Extent::Full,
+            };
+            kanamori::tables(&kanamori::Order { extent, adapter: device.choice(), out })
         }
         Command::Scenes => {
             list::scenes();

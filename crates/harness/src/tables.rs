@@ -1,3 +1,4 @@
 //! Tables that papers print, measured anew and set beside the printed numbers.
 
 pub mod gourmel;
+pub mod kanamori;

@@ -59,9 +59,9 @@
 //! early.
 //!
 //! *Not in the paper:* [`robust`] is a renderer that is right where section 7 gives up, and
-//! [`baseline`] the CPU version that section 6 compares with. With [`Options::distinct_points`] points with one t are peeled by the index of
-//! their balls, and none is lost. It costs nothing but a number in the list: balls are drawn by
-//! rising index, and the depth test keeps the first.
+//! [`baseline`] the CPU version that section 6 compares with. With [`Options::distinct_points`] points
+//! with one t are peeled by the index of their balls, and none is lost. It costs nothing but a number
+//! in the list: balls are drawn by rising index, and the depth test keeps the first.
 //!
 //! # Practice
 //! Right wherever no two points along the ray before the surface coincide in f32 (unless they are

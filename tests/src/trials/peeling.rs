@@ -60,7 +60,7 @@ fn every_value(gpu: &Gpu, case: &Case) -> Result<(), Failed> {
         let picture = draw(gpu, renderer.as_mut(), &made.scene, &view)?;
         let truths = Oracle::new(&made.scene).first_hits(&picture.rays);
         for (pixel, (truth, hit)) in truths.iter().zip(&picture.hits).enumerate() {
-            let is_unknown = hit.verdict == Verdict::Undecided && made.scene.threshold() < 1e-9;
+            let is_unknown = hit.verdict == Verdict::Undecided && made.scene.threshold() < 1e-11;
             if truth.verdict != hit.verdict && !truth.is_ambiguous() && !is_unknown {
                 let case = &made.name;
                 return Err(format!("{case}, pixel {pixel}: {truth:?} against {hit:?}").into());

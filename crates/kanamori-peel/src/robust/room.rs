@@ -1,7 +1,7 @@
 //! What the search keeps for a picture: lists of its tiles, and where each ray's search stands.
 
 use bytemuck::{Pod, Zeroable};
-use metaball_core::gpu::{Gpu, RenderError};
+use metaball_core::gpu::{Binding, Gpu, RenderError, bind_group, bind_group_layout};
 
 /// Tiles of a picture at most: `MOST_TILES` of `kanamori_robust/lists.wgsl`.
 pub(super) const MOST_TILES: u32 = 16_384;
@@ -57,20 +57,8 @@ impl Room {
         let marks = of("kanamori tile marks", MOST_TILES.into(), size_of::<u32>())?;
         let list = of("kanamori tile lists", entries.into(), size_of::<Entry>())?;
         let states = of("kanamori searches", pixels, size_of::<State>())?;
-        let bind_group = gpu.checked(|| {
-            let entries: Vec<_> = (0u32..)
-                .zip([&marks, &list, &states])
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("kanamori lists"),
-                layout,
-                entries: &entries,
-            })
-        })?;
+        let buffers = [(0, &marks), (1, &list), (2, &states)];
+        let bind_group = gpu.checked(|| bind_group(gpu, "kanamori lists", layout, &buffers))?;
         Ok(Self { bind_group, size, room_for: entries, marks, states })
     }
 
@@ -98,18 +86,5 @@ impl Room {
 
 /// Layout of group 2: marks, lists, searches.
 pub(super) fn room_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entries = [0, 1, 2].map(|binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: false },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    });
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("kanamori lists"),
-        entries: &entries,
-    })
+    bind_group_layout(gpu, "kanamori lists", &[0, 1, 2].map(|binding| (binding, Binding::Write)))
 }

@@ -3,7 +3,7 @@
 use super::compare::{Row, Table, WorkRow, find};
 use super::run::Run;
 use super::{Line, Measurements, Point};
-use crate::html::{escape, fill};
+use crate::html::{escape, fill, section};
 use crate::numbers::{decimal, grouped};
 use crate::plot::line_plot;
 use crate::report::{STYLE, fact, provenance, remark_paragraphs};
@@ -120,12 +120,4 @@ fn plot(line: &Line, measurements: &Measurements) -> String {
     let points: Vec<_> = line.points.iter().map(|point| (point.x, point.frame_ms)).collect();
     let drawn = line_plot(&points, &line.axis, "ms a frame");
     section(&format!("Plot: {}", line.title), &headings, &rows) + &drawn
-}
-
-fn section(title: &str, headings: &str, rows: &str) -> String {
-    format!(
-        "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>{headings}</tr></thead>\n\
-         <tbody>\n{rows}</tbody></table></div>\n</section>\n",
-        escape(title)
-    )
 }

@@ -1,0 +1,117 @@
+//! What is measured, in which order.
+
+use serde::{Deserialize, Serialize};
+
+use super::paper::{SHOWN, TABLE_1};
+use super::settings::Setting;
+
+/// How much to measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// Small scenes and pictures, to see that everything works.
+    Quick,
+    /// The paper's, as far as ten minutes go.
+    Usual,
+    /// The paper's, however long it takes.
+    Full,
+}
+
+/// A part of the report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Part {
+    /// Table 1.
+    TotalTimes,
+    /// What each optimisation of section 5 brings.
+    Optimizations,
+    /// Time against error, by the threshold of clipping.
+    Thresholds,
+    /// The scenes of section 6.
+    Scenes,
+}
+
+impl Part {
+    /// All, in the order of the report.
+    pub const ALL: [Self; 4] =
+        [Self::TotalTimes, Self::Optimizations, Self::Thresholds, Self::Scenes];
+
+    /// Its heading.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::TotalTimes => "Table 1: total times, GPU against CPU",
+            Self::Optimizations => "Section 5: each optimisation against what it replaces",
+            Self::Thresholds => "Section 5.4: the threshold of clipping, time against error",
+            Self::Scenes => "Section 6: the paper's scenes",
+        }
+    }
+}
+
+/// Variants on one scene at one size, timed in turn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bout {
+    /// Where it is reported.
+    pub part: Part,
+    /// What to load.
+    pub spec: String,
+    /// Pixels across and down.
+    pub size: (u32, u32),
+    /// The variants; the first is what the others are compared with.
+    pub settings: Vec<Setting>,
+    /// The paper's milliseconds: GPU, and CPU where printed.
+    pub paper_ms: Option<(f64, Option<f64>)>,
+}
+
+impl Extent {
+    /// Everything to measure; what matters most comes first.
+    pub fn bouts(self) -> Vec<Bout> {
+        let is_quick = self == Self::Quick;
+        let size = |size| if is_quick { (64, 48) } else { size };
+        let spec = |spec: &str, quick: &str| (if is_quick { quick } else { spec }).to_owned();
+        let plain = |part, spec, settings| Bout {
+            part,
+            spec,
+            size: size((640, 480)),
+            settings,
+            paper_ms: None,
+        };
+
+        let figure_1 = || spec("random-1k", "random:300");
+        let mut bouts = vec![
+            plain(Part::Optimizations, figure_1(), optimizations(is_quick)),
+            plain(Part::Thresholds, figure_1(), thresholds(is_quick)),
+        ];
+        let totals = if is_quick { &TABLE_1[..1] } else { TABLE_1 };
+        bouts.extend(totals.iter().map(|row| Bout {
+            part: Part::TotalTimes,
+            spec: spec(&format!("random:{}", row.balls), "random:500"),
+            size: size(row.size),
+            settings: vec![Setting::Published],
+            paper_ms: Some((row.gpu_ms, Some(row.cpu_ms))),
+        }));
+        let shown = if is_quick { &SHOWN[2..3] } else { SHOWN };
+        bouts.extend(shown.iter().map(|&(spec, fps)| Bout {
+            paper_ms: Some((1e3 / fps, None)),
+            ..plain(Part::Scenes, spec.to_owned(), vec![Setting::Published, Setting::Robust])
+        }));
+        if !is_quick {
+            bouts.push(plain(Part::Optimizations, "dam-break".to_owned(), optimizations(false)));
+        }
+        bouts
+    }
+}
+
+fn optimizations(is_quick: bool) -> Vec<Setting> {
+    use Setting::{
+        Iterative, Original, Published, RegisteredOnDevice, Tessellated, Tiles, Unculled,
+    };
+    let one_each = [Published, Tessellated, Unculled, Tiles(1), Iterative];
+    let others = [Tiles(8), Tiles(16), RegisteredOnDevice, Original];
+    one_each.into_iter().chain(others.into_iter().filter(|_| !is_quick)).collect()
+}
+
+/// Both readings of the paper's 10e−4 are among them.
+fn thresholds(is_quick: bool) -> Vec<Setting> {
+    let all = [1e-3, 1e-1, 1e-2, 1e-4, 1e-5];
+    let taken = if is_quick { &all[..2] } else { &all[..] };
+    taken.iter().map(|&threshold| Setting::Threshold(threshold)).collect()
+}
