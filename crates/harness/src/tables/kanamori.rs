@@ -211,7 +211,7 @@ fn rows_of(bout: &Outcome) -> Vec<Vec<String>> {
         row.push(run.setting.clone());
         match &run.result {
             Ok(gpu) => {
-                row.extend(cells(bout, measured, gpu, first.filter(|_| index > 0), index == 0))
+                row.extend(cells(bout, measured, gpu, first.filter(|_| index > 0), index == 0));
             }
             Err(reason) => row.push(reason.clone()),
         }
