@@ -1,5 +1,5 @@
-//! How long building takes: scattered balls for its growth with their number, a dense cloud for its
-//! growth with their overlap.
+//! How long building takes, in balls a second: scattered balls for its growth with their number, a
+//! dense cloud and a tank of fluid for its growth with their overlap. What building makes is printed before: list entries a ball, and leaves.
 
 use std::hint::black_box;
 
@@ -46,8 +46,22 @@ fn dense(count: usize) -> Scene {
     }))
 }
 
-const STRUCTURES: [(&str, Options); 2] =
-    [("bvh", Options::modified_bvh()), ("fbvh", Options::fitted())];
+/// A tank filled at random, in which about forty balls overlap each ball.
+fn pool(count: usize) -> Scene {
+    let mut random = random();
+    let radius = 1.75 / (count as f32).cbrt();
+    scene((0..count).map(|_| {
+        let (x, z) = (random(), random());
+        let height = 0.5 + 0.05 * ((9.0 * x).sin() + (7.0 * z).cos());
+        Metaball::new(Vec3::new(x, height * random(), z), radius)
+    }))
+}
+
+const STRUCTURES: [(&str, Options); 3] = [
+    ("bvh", Options::modified_bvh()),
+    ("fbvh", Options::fitted()),
+    ("fbvh-certified", Options::certified()),
+];
 
 fn build(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("build");
@@ -55,10 +69,17 @@ fn build(criterion: &mut Criterion) {
     let scenes = [10_000, 100_000, 1_000_000]
         .map(|count| (format!("scattered-{count}"), scattered(count)))
         .into_iter()
-        .chain([("dense-128000".to_owned(), dense(128_000))]);
+        .chain([("dense-128000".to_owned(), dense(128_000))])
+        .chain([("pool-1000000".to_owned(), pool(1_000_000))]);
     for (name, scene) in scenes {
         group.throughput(Throughput::Elements(scene.len() as u64));
         for (structure, options) in STRUCTURES {
+            let stats = Tree::build(&scene, &options).expect("legal options").stats();
+            let entries = stats.list_entries as f64 / scene.len() as f64;
+            eprintln!(
+                "{structure}/{name}: {entries:.1} list entries a ball, {} leaves",
+                stats.leaves
+            );
             group.bench_with_input(BenchmarkId::new(structure, &name), &scene, |bencher, scene| {
                 bencher.iter(|| Tree::build(black_box(scene), &options));
             });

@@ -1,13 +1,13 @@
 //! The builder's working copy of a ball, and when two things overlap.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A, Vec4};
 use metaball_core::Aabb;
 
-/// A ball as the builder moves it about.
+/// A ball as the builder moves it about: two registers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ball {
-    pub(crate) center: Vec3,
-    pub(crate) radius: f32,
+    /// The centre, and after it the support radius.
+    sphere: Vec4,
     pub(crate) strength: f32,
     /// Index in the field.
     pub(crate) index: u32,
@@ -18,24 +18,85 @@ pub(crate) struct Ball {
 const SLACK: f32 = 1.0 + 1e-6;
 
 impl Ball {
-    /// Box of the support sphere.
-    pub(crate) fn bounds(&self) -> Aabb {
-        Aabb::around_sphere(self.center, self.radius)
+    pub(crate) fn new(center: Vec3, radius: f32, strength: f32, index: u32) -> Self {
+        Self { sphere: center.extend(radius), strength, index }
+    }
+
+    #[inline]
+    pub(crate) fn center(&self) -> Vec3A {
+        Vec3A::from_vec4(self.sphere)
+    }
+
+    #[inline]
+    pub(crate) fn radius(&self) -> f32 {
+        self.sphere.w
     }
 
     /// Whether the support sphere meets the box. Never false where it does.
+    #[inline]
     pub(crate) fn reaches(&self, bounds: &Aabb) -> bool {
-        sphere_meets(self.center, self.radius, bounds)
+        sphere_meets(self.center(), self.radius(), bounds)
     }
 
     /// Whether the support spheres meet. Never false where they do.
+    #[inline]
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
-        let reach = self.radius + other.radius;
-        self.center.distance_squared(other.center) <= reach * reach * SLACK
+        self.is_within(self.radius() + other.radius(), other)
+    }
+
+    /// Whether the centres are at most so far apart. Never false where they are.
+    #[inline]
+    pub(crate) fn is_within(&self, distance: f32, other: &Self) -> bool {
+        self.center().distance_squared(other.center()) <= distance * distance * SLACK
     }
 }
 
 /// Whether the sphere meets the box. Never false where it does.
-pub(crate) fn sphere_meets(center: Vec3, radius: f32, bounds: &Aabb) -> bool {
-    bounds.distance_squared(center) <= radius * radius * SLACK
+#[inline]
+pub(crate) fn sphere_meets(center: Vec3A, radius: f32, bounds: &Aabb) -> bool {
+    let below = Vec3A::from(bounds.min) - center;
+    let above = center - Vec3A::from(bounds.max);
+    let outside = below.max(above).max(Vec3A::ZERO);
+    outside.length_squared() <= radius * radius * SLACK
+}
+
+/// The box around spheres about the balls' centres, of the radii that are given. No point of a sphere
+/// is lost to rounding: the box is a float wider on every side.
+#[inline]
+pub(crate) fn bounds_of(balls: &[Ball], radius: impl Fn(&Ball) -> f32) -> Aabb {
+    let (mut min, mut max) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+    for ball in balls {
+        let radius = Vec3A::splat(radius(ball));
+        min = min.min(ball.center() - radius);
+        max = max.max(ball.center() + radius);
+    }
+    let each = |corner: Vec3A, round: fn(f32) -> f32| {
+        Vec3::new(round(corner.x), round(corner.y), round(corner.z))
+    };
+    Aabb { min: each(min, f32::next_down), max: each(max, f32::next_up) }
+}
+
+/// Moves the balls that satisfy the test to the front, in their order, and returns how many they are.
+/// What is left behind them is of no use.
+#[inline]
+pub(crate) fn retain(balls: &mut [Ball], test: impl Fn(&Ball) -> bool) -> usize {
+    let mut kept = 0;
+    for at in 0..balls.len() {
+        let ball = balls[at];
+        balls[kept] = ball;
+        kept += usize::from(test(&ball));
+    }
+    kept
+}
+
+/// Moves the balls that satisfy the test to the front, and returns how many they are.
+pub(crate) fn partition(balls: &mut [Ball], test: impl Fn(&Ball) -> bool) -> usize {
+    let mut front = 0;
+    for at in 0..balls.len() {
+        if test(&balls[at]) {
+            balls.swap(front, at);
+            front += 1;
+        }
+    }
+    front
 }

@@ -1,21 +1,23 @@
-//! Building from the root down, both structures alike: divide a node, go into its parts, number
-//! what comes back.
+//! Building from the root down, all structures alike: divide a node, go into its parts, number what
+//! comes back.
 
+mod branch;
 mod classified;
 mod fitted;
 mod modified;
 
 use std::ops::Range;
 
-use bytemuck::Zeroable;
-use metaball_core::{Aabb, RADIUS_LIMITS, SceneError};
+use glam::Vec3A;
+use metaball_core::{Aabb, Kernel, Metaball, SceneError, check_ball, check_field};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::ball::Ball;
-use crate::node::{EMPTY, LEAF, Leaf, MAX_DEPTH, Node};
+use self::branch::Branch;
+use crate::ball::{Ball, bounds_of};
+use crate::node::{MAX_DEPTH, Node};
 use crate::options::{Options, Structure};
-use crate::plane::MAX_BINS;
+use crate::plane::{MAX_BINS, Plane};
 use crate::{Field, Tree};
 
 /// Why there is no tree.
@@ -45,7 +47,7 @@ pub enum BuildError {
 
 /// Nodes of at least this many balls hand one of their parts to another thread. It depends on the
 /// balls alone, never on the number of threads, so neither does the tree.
-const FORK_FROM: usize = 4096;
+const FORK_FROM: usize = 2048;
 
 /// The level from which on planes go through the middle ball: each halves the own balls, and 32 more
 /// levels halve any number that an index of 32 bits can name.
@@ -55,131 +57,124 @@ pub(crate) fn build(field: &impl Field, options: &Options) -> Result<Tree, Build
     if !(2..=MAX_BINS as u32).contains(&options.bins) {
         return Err(BuildError::Bins { found: options.bins });
     }
-    let mut own = copy(field)?;
+    let mut balls = copy(field)?;
     let builder = Builder {
         kernel: field.kernel(),
         threshold: field.threshold(),
         max_depth: options.max_depth.min(MAX_DEPTH),
         options: *options,
     };
-    let mut branch = Branch::default();
-    let mut pool = Vec::new();
-    let root = builder
-        .root(&mut own, &mut pool)
-        .and_then(|(own, part)| builder.grow(own, &mut pool, part, &mut branch));
-    branch.finish(root, options)
+    let mut branch = Branch::new();
+    let root = if balls.is_empty() { None } else { builder.root(&mut balls, &mut branch) };
+    branch.finish(root, options.kind())
 }
 
 /// Checks the field and copies its balls.
 fn copy(field: &impl Field) -> Result<Vec<Ball>, SceneError> {
-    let threshold = field.threshold();
-    if !(threshold > 0.0 && threshold.is_finite()) {
-        return Err(SceneError::Threshold { found: threshold });
+    let count = check_field(field.ball_count(), field.threshold())?;
+    let ball = |index: u32| {
+        let support = field.support(index as usize);
+        let strength = field.strength(index as usize);
+        Metaball { center: support.center, radius: support.radius, strength }
+    };
+    let refused = |index: u32| check_ball(index as usize, &ball(index)).err();
+    if let Some(refusal) = (0..count).into_par_iter().find_map_first(refused) {
+        return Err(refusal);
     }
-    let count = u32::try_from(field.ball_count())
-        .map_err(|_| SceneError::TooManyBalls { found: field.ball_count() })?;
-    (0..count)
-        .into_par_iter()
-        .map(|index| {
-            let at = index as usize;
-            let support = field.support(at);
-            let strength = field.strength(at);
-            if !support.center.abs().cmple(glam::Vec3::splat(RADIUS_LIMITS.1)).all() {
-                return Err(SceneError::Center { index: at, found: support.center });
-            }
-            if !(RADIUS_LIMITS.0..=RADIUS_LIMITS.1).contains(&support.radius) {
-                return Err(SceneError::Radius { index: at, found: support.radius });
-            }
-            if !(strength > 0.0 && strength.is_finite()) {
-                return Err(SceneError::Strength { index: at, found: strength });
-            }
-            Ok(Ball { center: support.center, radius: support.radius, strength, index })
-        })
-        .collect()
+    let copied = |index: u32| {
+        let Metaball { center, radius, strength } = ball(index);
+        Ball::new(center, radius, strength, index)
+    };
+    Ok((0..count).into_par_iter().map(copied).collect())
 }
 
 /// What the divisions of all nodes have in common.
 struct Builder {
-    kernel: metaball_core::Kernel,
+    kernel: Kernel,
     threshold: f32,
     max_depth: usize,
     options: Options,
 }
 
-/// A node to be divided, but for its own balls.
+/// A node to be divided, but for the own balls of the modified BVH, which are kept in a slice.
 #[derive(Debug, Clone)]
 struct Part {
-    /// Its split balls in the pool.
-    splits: Range<usize>,
+    /// Its other balls in the pool: split balls in the modified BVH, all of them elsewhere.
+    list: Range<usize>,
     bounds: Aabb,
+    cell: Cell,
     depth: usize,
 }
 
-/// What becomes of a node. Parts name their own balls by a range of the node's.
+/// The part of space on a node's side of all planes above it: in the Fitted BVH its own balls are
+/// those of its list whose centres are in it.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    min: Vec3A,
+    end: Vec3A,
+}
+
+impl Cell {
+    const ALL: Self = Self { min: Vec3A::NEG_INFINITY, end: Vec3A::INFINITY };
+
+    fn cut(self, plane: &Plane) -> (Self, Self) {
+        let (mut left, mut right) = (self, self);
+        left.end[plane.axis] = plane.at;
+        right.min[plane.axis] = plane.at;
+        (left, right)
+    }
+
+    fn owns(&self, ball: &Ball) -> bool {
+        (ball.center().cmpge(self.min) & ball.center().cmplt(self.end)).all()
+    }
+}
+
+/// What becomes of a node.
 enum Division {
-    /// A leaf with these split balls of the pool.
+    /// A leaf with these balls of the pool, beside own ones in the modified BVH.
     Leaf(Range<usize>),
     /// The surface does not come here.
     Nothing,
     /// All of the surface is in one part.
-    One(Range<usize>, Part),
-    /// Left and right of a plane across the axis.
-    Two(usize, (Range<usize>, Part), (Range<usize>, Part)),
+    One(Part),
+    /// Left and right of a plane.
+    Two(Halves),
 }
 
-/// A subtree under construction. References count from its own first node and leaf.
-#[derive(Default)]
-struct Branch {
-    /// In preorder. A node whose parts turned out to hold no surface, or only one of them, stays
-    /// vacant and is taken out in the end.
-    nodes: Vec<Node>,
-    /// `first` holds the length of the leaf's list for now.
-    leaves: Vec<Leaf>,
-    lists: Vec<u32>,
+/// The parts of a node on either side of a plane.
+struct Halves {
+    axis: usize,
+    left: Part,
+    right: Part,
+    /// In the modified BVH: how many of the node's own balls, which have been brought in order, are
+    /// the left part's.
+    left_own: usize,
 }
-
-const VACANT: Node = Node {
-    left_min: [0.0; 3],
-    left: EMPTY,
-    left_max: [0.0; 3],
-    right: EMPTY,
-    right_min: [0.0; 3],
-    axis: 0,
-    right_max: [0.0; 3],
-    first_right_leaf: 0,
-};
 
 impl Builder {
-    /// The node of all balls, if there is any surface.
-    fn root<'a>(
-        &self,
-        own: &'a mut [Ball],
-        pool: &mut Vec<Ball>,
-    ) -> Option<(&'a mut [Ball], Part)> {
-        let bounds = own.iter().fold(Aabb::EMPTY, |bounds, ball| bounds.union(&ball.bounds()));
-        if own.is_empty() {
-            return None;
-        }
+    /// Builds the tree of all balls, if there is any surface.
+    fn root(&self, balls: &mut Vec<Ball>, branch: &mut Branch) -> Option<(u32, Aabb)> {
+        let bounds = bounds_of(balls, Ball::radius);
+        let whole = Part { list: 0..0, bounds, cell: Cell::ALL, depth: 0 };
+        let all = Part { list: 0..balls.len(), ..whole.clone() };
         match self.options.structure {
-            Structure::ModifiedBvh => Some((own, Part { splits: 0..0, bounds, depth: 0 })),
+            Structure::ModifiedBvh => self.grow(balls, &mut Vec::new(), whole, branch),
             Structure::Fitted(fitting) => {
-                let (kept, part) = self.fit(&fitting, own, pool, 0, bounds, 0)?;
-                Some((&mut own[..kept], part))
+                let root = self.fit(&fitting, balls, &all)?;
+                self.grow(&mut [], balls, root, branch)
             }
-            // One list, in the pool: there is no difference between own and split balls.
             Structure::Certified(_) => {
-                pool.extend_from_slice(own);
-                Some((&mut own[..0], Part { splits: 0..pool.len(), bounds, depth: 0 }))
+                let root = self.classify(balls, &all)?;
+                self.grow(&mut [], balls, root, branch)
             }
         }
     }
 
     /// Builds the subtree of a node, and returns its reference and box if it has any leaf. The pool
-    /// holds the split balls of this node and, below it, those of the nodes above; it is left as it
-    /// was.
+    /// holds the node's list and, below it, lists that are still to be divided, which stay.
     fn grow(
         &self,
-        mut own: &mut [Ball],
+        own: &mut [Ball],
         pool: &mut Vec<Ball>,
         mut part: Part,
         branch: &mut Branch,
@@ -188,20 +183,17 @@ impl Builder {
         let subtree = loop {
             let division = match self.options.structure {
                 Structure::ModifiedBvh => self.divide_modified(own, pool, &part),
-                Structure::Fitted(fitting) => self.divide_fitted(&fitting, own, pool, &part),
+                Structure::Fitted(fitting) => self.divide_fitted(&fitting, pool, &part),
                 Structure::Certified(classes) => self.divide_classified(&classes, pool, &part),
             };
             match division {
-                Division::Leaf(splits) => {
-                    break Some((branch.push_leaf(own, &pool[splits], &part.bounds), part.bounds));
+                Division::Leaf(list) => {
+                    break Some((self.leaf(own, &pool[list], &part, branch), part.bounds));
                 }
                 Division::Nothing => break None,
-                Division::One(range, only) => {
-                    own = &mut own[range];
-                    part = only;
-                }
-                Division::Two(axis, left, right) => {
-                    break self.fork(own, pool, &part, axis, left, right, branch);
+                Division::One(only) => part = only,
+                Division::Two(halves) => {
+                    break self.fork(own, pool, &part, halves, branch);
                 }
             }
         };
@@ -210,44 +202,48 @@ impl Builder {
     }
 
     /// Grows both parts of a node, on two threads if that is worth it, and joins them.
-    #[expect(clippy::too_many_arguments, reason = "a node and its two parts, used once")]
     fn fork(
         &self,
         own: &mut [Ball],
         pool: &mut Vec<Ball>,
         part: &Part,
-        axis: usize,
-        (left_range, left): (Range<usize>, Part),
-        (right_range, mut right): (Range<usize>, Part),
+        halves: Halves,
         branch: &mut Branch,
     ) -> Option<(u32, Aabb)> {
-        let balls = own.len() + part.splits.len();
-        let (left_own, right_own) = own.split_at_mut(right_range.start);
-        let left_own = &mut left_own[left_range];
-        let right_own = &mut right_own[..right_range.len()];
+        let Halves { axis, mut left, right, left_own } = halves;
+        let balls = own.len() + part.list.len();
+        let (left_own, right_own) = own.split_at_mut(left_own);
+        let right_end = right.list.end;
 
-        let index = branch.nodes.len();
-        branch.nodes.push(VACANT);
+        let index = branch.push_vacant();
         let first_right_leaf;
+        // No part has more balls than its node: below a node that is grown on one thread all are, and
+        // in one that is not nothing but vacant nodes comes before the pieces of its parts.
         let (left, right) = if balls >= FORK_FROM {
-            let mut right_pool = pool[right.splits.clone()].to_vec();
-            right.splits = 0..right_pool.len();
-            let mut right_branch = Branch::default();
+            let mut left_pool = pool[left.list.clone()].to_vec();
+            left.list = 0..left_pool.len();
+            pool.truncate(right_end);
+            let mut right_branch = Branch::new();
             let (left, right) = rayon::join(
-                || self.grow(left_own, pool, left, branch),
-                || self.grow(right_own, &mut right_pool, right, &mut right_branch),
+                || self.grow(left_own, &mut left_pool, left, branch),
+                || self.grow(right_own, pool, right, &mut right_branch),
             );
-            first_right_leaf = branch.leaves.len();
+            first_right_leaf = branch.leaf_count();
             (left, branch.append(right_branch, right))
         } else {
             let left = self.grow(left_own, pool, left, branch);
-            first_right_leaf = branch.leaves.len();
+            first_right_leaf = branch.leaf_count();
+            pool.truncate(right_end);
             (left, self.grow(right_own, pool, right, branch))
         };
         let (Some((left, left_bounds)), Some((right, right_bounds))) = (left, right) else {
             return left.or(right);
         };
-        branch.nodes[index] = Node {
+        let solid = branch.merge_solids(index, axis, &left_bounds, &right_bounds);
+        if solid.is_some() {
+            return solid;
+        }
+        let node = Node {
             left_min: left_bounds.min.into(),
             left,
             left_max: left_bounds.max.into(),
@@ -257,117 +253,50 @@ impl Builder {
             right_max: right_bounds.max.into(),
             first_right_leaf: first_right_leaf as u32,
         };
-        Some((index as u32, part.bounds))
-    }
-}
-
-impl Branch {
-    /// Adds a leaf and returns the reference to it.
-    fn push_leaf(&mut self, own: &[Ball], splits: &[Ball], bounds: &Aabb) -> u32 {
-        let reference = LEAF | self.leaves.len() as u32;
-        self.lists.extend(own.iter().chain(splits).map(|ball| ball.index));
-        self.leaves.push(Leaf {
-            min: bounds.min.into(),
-            first: (own.len() + splits.len()) as u32,
-            max: bounds.max.into(),
-            own: own.len() as u32,
-        });
-        reference
+        Some((branch.fill(index, node), part.bounds))
     }
 
-    /// Adds a subtree behind this one and returns its root's new reference.
-    fn append(&mut self, other: Self, root: Option<(u32, Aabb)>) -> Option<(u32, Aabb)> {
-        let nodes = self.nodes.len() as u32;
-        let leaves = self.leaves.len() as u32;
-        let moved = |reference: u32| match reference {
-            EMPTY => EMPTY,
-            leaf if leaf & LEAF != 0 => leaf + leaves,
-            node => node + nodes,
+    /// Adds a leaf, own balls before split balls, and returns the reference to it.
+    fn leaf(&self, own: &[Ball], list: &[Ball], part: &Part, branch: &mut Branch) -> u32 {
+        let is_own = |ball: &&Ball| match self.options.structure {
+            Structure::Fitted(_) => part.cell.owns(ball),
+            Structure::ModifiedBvh | Structure::Certified(_) => false,
         };
-        self.nodes.extend(other.nodes.into_iter().map(|node| Node {
-            left: moved(node.left),
-            right: moved(node.right),
-            first_right_leaf: node.first_right_leaf + leaves,
-            ..node
-        }));
-        self.leaves.extend(other.leaves);
-        self.lists.extend(other.lists);
-        root.map(|(root, bounds)| (moved(root), bounds))
-    }
-
-    /// Takes the vacant nodes out, turns the lengths of lists into their starts, and checks that the
-    /// indices were wide enough.
-    fn finish(mut self, root: Option<(u32, Aabb)>, options: &Options) -> Result<Tree, BuildError> {
-        check("leaves", self.leaves.len(), (LEAF - 1) as usize)?;
-        check("list entries", self.lists.len(), u32::MAX as usize)?;
-        let (mut root, bounds) = root.unwrap_or((EMPTY, Aabb::EMPTY));
-
-        if self.nodes.iter().any(|node| node.left == EMPTY) {
-            let mut kept = 0;
-            let numbers: Vec<u32> = self
-                .nodes
-                .iter()
-                .map(|node| {
-                    let number = kept;
-                    kept += u32::from(node.left != EMPTY);
-                    number
-                })
-                .collect();
-            let moved = |reference: u32| {
-                if reference & LEAF != 0 { reference } else { numbers[reference as usize] }
-            };
-            self.nodes.retain(|node| node.left != EMPTY);
-            for node in &mut self.nodes {
-                node.left = moved(node.left);
-                node.right = moved(node.right);
-            }
-            root = moved(root);
-        }
-
-        let mut first = 0;
-        for leaf in &mut self.leaves {
-            first += std::mem::replace(&mut leaf.first, first);
-        }
-        self.leaves.push(Leaf { first, ..Leaf::zeroed() });
-        Ok(Tree {
-            nodes: self.nodes,
-            leaves: self.leaves,
-            lists: self.lists,
-            root,
-            bounds,
-            kind: options.kind(),
-        })
+        let index = |ball: &Ball| ball.index;
+        branch.push_leaf(
+            &part.bounds,
+            own.iter().chain(list.iter().filter(is_own)).map(index),
+            list.iter().filter(|ball| !is_own(ball)).map(index),
+        )
     }
 }
 
-fn check(what: &'static str, found: usize, limit: usize) -> Result<(), BuildError> {
-    if found <= limit { Ok(()) } else { Err(BuildError::TooMany { what, found, limit }) }
-}
-
-/// Moves the balls that satisfy the test to the front, and returns how many they are.
-fn partition(balls: &mut [Ball], mut test: impl FnMut(&Ball) -> bool) -> usize {
-    let mut front = 0;
-    for at in 0..balls.len() {
-        if test(&balls[at]) {
-            balls.swap(front, at);
-            front += 1;
-        }
-    }
-    front
-}
-
-/// Appends to the pool those of its own range and of `others` that satisfy the test.
-fn gather(
+/// Divides the list of a node that is cut in two: what reaches the left goes to the end of the pool,
+/// what reaches the right takes the node's place. Balls reach the node's box; so each reaches the
+/// part on whose side its centre is, and the other one if it reaches the face between them.
+fn divide(
     pool: &mut Vec<Ball>,
-    splits: &Range<usize>,
-    others: &[Ball],
-    test: impl Fn(&Ball) -> bool,
-) {
-    for at in splits.clone() {
-        let ball = pool[at];
-        if test(&ball) {
-            pool.push(ball);
-        }
+    list: &Range<usize>,
+    plane: &Plane,
+    face: &Aabb,
+) -> (Range<usize>, Range<usize>) {
+    let mut end = Vec3A::INFINITY;
+    end[plane.axis] = plane.at;
+
+    let top = pool.len();
+    pool.extend_from_within(list.clone());
+    let (below, left) = pool.split_at_mut(top);
+    let right = &mut below[list.clone()];
+    let (mut left_count, mut right_count) = (0, 0);
+    for at in 0..list.len() {
+        let ball = left[at];
+        let is_left = ball.center().cmplt(end).all();
+        let crosses = ball.reaches(face);
+        left[left_count] = ball;
+        right[right_count] = ball;
+        left_count += usize::from(is_left | crosses);
+        right_count += usize::from(!is_left | crosses);
     }
-    pool.extend(others.iter().filter(|ball| test(ball)));
+    pool.truncate(top + left_count);
+    (top..top + left_count, list.start..list.start + right_count)
 }

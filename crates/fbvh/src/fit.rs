@@ -2,37 +2,31 @@
 
 use metaball_core::{Aabb, Kernel};
 
-use crate::ball::{Ball, sphere_meets};
+use crate::ball::{Ball, bounds_of, retain, sphere_meets};
 use crate::options::Boxes;
 
-/// The radius rᵢ around each ball of a node outside of all of which the field is below T.
+/// The radius rᵢ = min(Rᵢ·`factor`, `limit`) around each ball of a node outside of all of which the
+/// field is below T.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Reach {
-    /// Rᵢ.
-    Support,
-    /// min(Rᵢ, `r_max`).
-    AtMost(f32),
-    /// Rᵢ times a factor.
-    Scaled(f32),
+pub(crate) struct Reach {
+    factor: f32,
+    limit: f32,
 }
 
 impl Reach {
+    const SUPPORT: Self = Self { factor: 1.0, limit: f32::INFINITY };
+
     /// The bound for the balls of one node, own and split: `None` where they cannot reach T even if
     /// all had one centre.
     ///
     /// Were the field T at x, then Σ qᵢkᵢ(x) ≥ T, so some ball has kᵢ(x) ≥ T/Σq: x is within
     /// Rᵢ·k⁻¹(T/Σq) of it. The sum must run over all balls whose support meets the node's box.
-    pub(crate) fn of<'a>(
-        boxes: Boxes,
-        kernel: Kernel,
-        threshold: f32,
-        balls: impl Iterator<Item = &'a Ball>,
-    ) -> Option<Self> {
+    pub(crate) fn of(boxes: Boxes, kernel: Kernel, threshold: f32, balls: &[Ball]) -> Option<Self> {
         if matches!(boxes, Boxes::Cut | Boxes::Support) {
-            return Some(Self::Support);
+            return (!balls.is_empty()).then_some(Self::SUPPORT);
         }
-        let (strength, radius) = balls.fold((0.0f64, 0.0f32), |(strength, radius), ball| {
-            (strength + f64::from(ball.strength), radius.max(ball.radius))
+        let (strength, radius) = balls.iter().fold((0.0f64, 0.0f32), |(strength, radius), ball| {
+            (strength + f64::from(ball.strength), radius.max(ball.radius()))
         });
         let share = f64::from(threshold) / strength;
         if share >= 1.0 {
@@ -41,49 +35,53 @@ impl Reach {
         // Rounded up by more than the inverse kernel (1e-15) and the products (6e-8) can be off.
         let factor = (kernel.ratio_at(share).unwrap_or(1.0) * (1.0 + 4e-7)).min(1.0) as f32;
         Some(match boxes {
-            Boxes::PerBall => Self::Scaled(factor),
-            _ => Self::AtMost(radius * factor),
+            Boxes::PerBall => Self { factor, ..Self::SUPPORT },
+            _ => Self { limit: radius * factor, ..Self::SUPPORT },
         })
     }
 
     /// The radius around a ball.
+    #[inline]
     pub(crate) fn radius(self, ball: &Ball) -> f32 {
-        match self {
-            Self::Support => ball.radius,
-            Self::AtMost(radius) => ball.radius.min(radius),
-            Self::Scaled(factor) => ball.radius * factor,
-        }
+        (ball.radius() * self.factor).min(self.limit)
     }
 
-    /// The box around a ball's part of the surface.
-    pub(crate) fn bounds(self, ball: &Ball) -> Aabb {
-        Aabb::around_sphere(ball.center, self.radius(ball))
+    /// The box around the surface that the balls can make.
+    pub(crate) fn bounds(self, balls: &[Ball]) -> Aabb {
+        bounds_of(balls, |ball| self.radius(ball))
     }
 }
 
-/// Section 5.3.2: removes from `splits` the balls that take no part in any surface inside `bounds`,
-/// and returns how many are left, at the head of the slice, in their order.
+/// Section 5.3.2: removes from a node's list the split balls that take no part in any surface inside
+/// `bounds`, and returns how many balls are left, at the head of the slice, in their order.
 ///
 /// Were x in the box with F(x) ≥ T, then x is within rⱼ of some ball j. j is not a discarded ball i,
 /// whose rᵢ keeps clear of the box; so |x − pᵢ| ≥ |pᵢ − pⱼ| − rⱼ ≥ Rᵢ, where ball i adds nothing.
-pub(crate) fn discard(reach: Reach, bounds: &Aabb, own: &[Ball], splits: &mut [Ball]) -> usize {
-    let mut kept = splits.len();
+pub(crate) fn discard(
+    reach: Reach,
+    bounds: &Aabb,
+    balls: &mut [Ball],
+    is_own: impl Fn(&Ball) -> bool,
+) -> usize {
+    let mut kept = balls.len();
     let mut at = 0;
     while at < kept {
-        let ball = splits[at];
-        let clear_of = |other: &Ball| {
-            let gap = ball.radius + reach.radius(other);
-            !sphere_meets(ball.center, gap, &Aabb { min: other.center, max: other.center })
-        };
-        let contributes = sphere_meets(ball.center, reach.radius(&ball), bounds)
-            || !own.iter().all(clear_of)
-            || !splits[..kept].iter().all(|other| other.index == ball.index || clear_of(other));
+        let ball = balls[at];
+        let touches = |other: &Ball| ball.is_within(ball.radius() + reach.radius(other), other);
+        let contributes = is_own(&ball)
+            || sphere_meets(ball.center(), reach.radius(&ball), bounds)
+            || balls[..kept].iter().any(|other| other.index != ball.index && touches(other));
         if contributes {
             at += 1;
         } else {
-            splits[at..kept].rotate_left(1);
+            balls.copy_within(at + 1..kept, at);
             kept -= 1;
         }
     }
     kept
+}
+
+/// Keeps those of a node's balls that reach its box.
+pub(crate) fn keep_reaching(balls: &mut [Ball], bounds: &Aabb) -> usize {
+    retain(balls, |ball| ball.reaches(bounds))
 }

@@ -1,5 +1,7 @@
 //! Which structure to build, and how.
 
+use glam::Vec3A;
+
 use crate::MAX_DEPTH;
 
 /// The two structures of the paper.
@@ -78,8 +80,16 @@ pub enum Cost {
 
 impl Cost {
     /// The cost of a leaf of so many balls.
-    pub(crate) fn of(self, balls: usize) -> f32 {
-        let balls = balls as f32;
+    pub(crate) fn of(self, balls: f32) -> f32 {
+        match self {
+            Self::Linear => balls,
+            Self::Quadratic { lambda } => balls * (balls + lambda),
+        }
+    }
+
+    /// The costs of three leaves.
+    #[inline]
+    pub(crate) fn of_each(self, balls: Vec3A) -> Vec3A {
         match self {
             Self::Linear => balls,
             Self::Quadratic { lambda } => balls * (balls + lambda),
@@ -141,7 +151,7 @@ impl Options {
     /// The certified tree.
     pub const fn certified() -> Self {
         Self {
-            structure: Structure::Certified(Classes { leaf_size: 16, smallest_side: 0.5 }),
+            structure: Structure::Certified(Classes { leaf_size: 16, smallest_side: 0.7 }),
             ..Self::modified_bvh()
         }
     }

@@ -2,7 +2,7 @@
 
 use std::iter;
 
-use glam::Vec3A;
+use glam::{Vec3A, Vec3Swizzles};
 use metaball_core::Aabb;
 
 use crate::ball::Ball;
@@ -47,53 +47,57 @@ impl Bin {
 /// The best of the planes between the bins of a Fitted node. A ball counts on each side that its
 /// support reaches; the sides' boxes are cut at the plane. What fitting will take off them is left
 /// out: to know it for each plane costs more than the two in a hundred fewer balls a ray gains.
-pub(crate) fn cut_space<'a>(
-    balls: impl Iterator<Item = &'a Ball>,
-    bounds: &Aabb,
-    bins: usize,
-    cost: Cost,
-) -> Option<Plane> {
+pub(crate) fn cut_space(balls: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) -> Option<Plane> {
     // A ball is counted in the bin where it begins and in the one where it ends: those that begin
     // before a plane reach its left side, those that end behind it the right one.
-    let mut begin = [[0usize; MAX_BINS]; 3];
-    let mut end = [[0usize; MAX_BINS]; 3];
+    let mut begin = [[0i32; 4]; MAX_BINS];
+    let mut end = [[0i32; 4]; MAX_BINS];
     let low = Vec3A::from(bounds.min);
     let side = Vec3A::from(bounds.max) - low;
     let scale = Vec3A::splat(bins as f32) / side;
-    let mut count = 0;
     for ball in balls {
-        let center = Vec3A::from(ball.center) - low;
-        let first = bin_of((center - ball.radius) * scale, bins);
-        let last = bin_of((center + ball.radius) * scale, bins);
+        let center = ball.center() - low;
+        let first = bin_of((center - ball.radius()) * scale, bins);
+        let last = bin_of((center + ball.radius()) * scale, bins);
         for axis in 0..3 {
-            begin[axis][first[axis]] += 1;
-            end[axis][last[axis]] += 1;
+            begin[first[axis]][axis] += 1;
+            end[last[axis]][axis] += 1;
         }
-        count += 1;
     }
 
-    let mut best: Option<Plane> = None;
-    for axis in 0..3 {
-        let (width, height) = (side[(axis + 1) % 3], side[(axis + 2) % 3]);
-        let half_area = |length: f32| width * height + length * (width + height);
-        let whole = half_area(side[axis]);
-        let (mut left, mut right) = (0, count);
-        for bin in 1..bins {
-            left += begin[axis][bin - 1];
-            right -= end[axis][bin - 1];
-            // Where both sides get all balls, two leaves never cost less than one.
-            if left + right >= 2 * count {
-                continue;
-            }
-            let length = side[axis] * (bin as f32 / bins as f32);
-            let cost = share(half_area(length), whole) * cost.of(left)
-                + share(half_area(side[axis] - length), whole) * cost.of(right);
-            if best.is_none_or(|best| cost < best.cost) {
-                best = Some(Plane { axis, at: bounds.min[axis] + length, cost });
-            }
+    // All three axes at once: half the area of a part is that of the cut and, of the four faces
+    // across it, length times half their girth.
+    let (width, height) = (side.yzx(), side.zxy());
+    let half_area = |length: Vec3A| width * height + length * (width + height);
+    let whole = half_area(side);
+    let share = |part: Vec3A| Vec3A::select(whole.cmpgt(Vec3A::ZERO), part / whole, Vec3A::ONE);
+    // Where both sides get all balls, two leaves never cost less than one.
+    let count = balls.len() as i32;
+    let useless = Vec3A::splat(2.0 * count as f32);
+    let (mut left, mut right) = ([0; 4], [count; 4]);
+    let balls_of = |[x, y, z, _]: [i32; 4]| Vec3A::new(x as f32, y as f32, z as f32);
+    let mut least = Vec3A::splat(f32::MAX);
+    let mut best = Vec3A::ZERO;
+    for bin in 1..bins {
+        for axis in 0..4 {
+            left[axis] += begin[bin - 1][axis];
+            right[axis] -= end[bin - 1][axis];
         }
+        let (left, right) = (balls_of(left), balls_of(right));
+        let length = side * (bin as f32 / bins as f32);
+        let expected = share(half_area(length)) * cost.of_each(left)
+            + share(half_area(side - length)) * cost.of_each(right);
+        let better = expected.cmplt(least) & (left + right).cmplt(useless);
+        least = Vec3A::select(better, expected, least);
+        best = Vec3A::select(better, length, best);
     }
-    best.filter(|best| best.at > bounds.min[best.axis] && best.at < bounds.max[best.axis])
+    let axis = (1..3).fold(0, |best, axis| if least[axis] < least[best] { axis } else { best });
+    let at = bounds.min[axis] + best[axis];
+    (at > bounds.min[axis] && at < bounds.max[axis]).then_some(Plane {
+        axis,
+        at,
+        cost: least[axis],
+    })
 }
 
 /// The best of the planes between the bins of own balls' centres, for a node of the modified BVH:
@@ -104,10 +108,10 @@ pub(crate) fn cut_centers(own: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) 
     let scale = Vec3A::splat(bins as f32) / (high - low);
     let mut filled = [[Bin::EMPTY; MAX_BINS]; 3];
     for ball in own {
-        let center = Vec3A::from(ball.center);
+        let center = ball.center();
         let bin = bin_of((center - low) * scale, bins);
         for axis in 0..3 {
-            filled[axis][bin[axis]].add(center - ball.radius, center + ball.radius);
+            filled[axis][bin[axis]].add(center - ball.radius(), center + ball.radius());
         }
     }
 
@@ -123,8 +127,8 @@ pub(crate) fn cut_centers(own: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) 
                 continue;
             }
             let at = low[axis] + (high[axis] - low[axis]) * (bin as f32 / bins as f32);
-            let cost = share(half_area(left.min, left.max), whole) * cost.of(left.count as usize)
-                + share(half_area(right.min, right.max), whole) * cost.of(right.count as usize);
+            let cost = share(half_area(left.min, left.max), whole) * cost.of(left.count as f32)
+                + share(half_area(right.min, right.max), whole) * cost.of(right.count as f32);
             if best.is_none_or(|best| cost < best.cost) {
                 best = Some(Plane { axis, at, cost });
             }
@@ -135,8 +139,8 @@ pub(crate) fn cut_centers(own: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) 
 
 /// What a given plane across a Fitted node costs, its sides not fitted. `None` where the plane is
 /// not inside the box.
-pub(crate) fn weigh<'a>(
-    balls: impl Iterator<Item = &'a Ball>,
+pub(crate) fn weigh(
+    balls: &[Ball],
     bounds: &Aabb,
     (axis, at): (usize, f32),
     cost: Cost,
@@ -145,15 +149,12 @@ pub(crate) fn weigh<'a>(
         return None;
     }
     let (left, right) = cut(bounds, axis, at);
-    let (mut left_count, mut right_count) = (0, 0);
-    for ball in balls {
-        left_count += usize::from(ball.reaches(&left));
-        right_count += usize::from(ball.reaches(&right));
-    }
     let whole = half_area(bounds.min.into(), bounds.max.into());
-    let share = |side: &Aabb| share(half_area(side.min.into(), side.max.into()), whole);
-    let cost = share(&left) * cost.of(left_count) + share(&right) * cost.of(right_count);
-    Some(Plane { axis, at, cost })
+    let weight = |side: &Aabb| {
+        let reaching = balls.iter().filter(|ball| ball.reaches(side)).count();
+        share(half_area(side.min.into(), side.max.into()), whole) * cost.of(reaching as f32)
+    };
+    Some(Plane { axis, at, cost: weight(&left) + weight(&right) })
 }
 
 /// The two parts of a box on either side of a plane that crosses it.
@@ -164,11 +165,22 @@ pub(crate) fn cut(bounds: &Aabb, axis: usize, at: f32) -> (Aabb, Aabb) {
     (left, right)
 }
 
+/// Where a plane cuts a box: a box without thickness.
+pub(crate) fn face(bounds: &Aabb, plane: &Plane) -> Aabb {
+    let mut face = *bounds;
+    face.min[plane.axis] = plane.at;
+    face.max[plane.axis] = plane.at;
+    face
+}
+
 /// The box around the centres.
 pub(crate) fn centers_of(balls: &[Ball]) -> Aabb {
-    balls.iter().fold(Aabb::EMPTY, |bounds, ball| {
-        bounds.union(&Aabb { min: ball.center, max: ball.center })
-    })
+    let (mut min, mut max) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+    for ball in balls {
+        min = min.min(ball.center());
+        max = max.max(ball.center());
+    }
+    Aabb { min: min.into(), max: max.into() }
 }
 
 /// The axis along which the box is longest; the first of them.

@@ -131,7 +131,7 @@ fn nothing_to_see_is_an_empty_tree() {
 fn coincident_balls_are_one_leaf() {
     let pile = std::iter::repeat_n(Metaball::new(Vec3::ONE, 1.0), 5000);
     let pile = Scene::new(pile, Kernel::QUARTIC, 0.5).expect("legal");
-    for options in [Options::modified_bvh(), Options::fitted()] {
+    for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
         let stats = Tree::build(&pile, &options).expect("legal options").stats();
         assert_eq!((stats.leaves, stats.list_entries), (1, 5000), "{:?}", options.kind());
     }

@@ -89,9 +89,7 @@ impl Scene {
             supports.push(Support { center: ball.center, radius: ball.radius });
             strengths.push(ball.strength);
         }
-        if u32::try_from(supports.len()).is_err() {
-            return Err(SceneError::TooManyBalls { found: supports.len() });
-        }
+        check_field(supports.len(), threshold)?;
         let strengths = strengths.iter().any(|&strength| strength != 1.0).then_some(strengths);
         Ok(Self { supports, strengths, colors: None, kernel, threshold })
     }
@@ -188,7 +186,21 @@ fn check_threshold(threshold: f32) -> Result<(), SceneError> {
     }
 }
 
-fn check_ball(index: usize, ball: &Metaball) -> Result<(), SceneError> {
+/// Whether a field may have this threshold and so many balls, whoever keeps them; returns how many,
+/// as an index counts them.
+///
+/// # Errors
+/// Names the threshold, or the number of balls.
+pub fn check_field(balls: usize, threshold: f32) -> Result<u32, SceneError> {
+    check_threshold(threshold)?;
+    u32::try_from(balls).map_err(|_| SceneError::TooManyBalls { found: balls })
+}
+
+/// Whether a field may have this ball, the one at `index`.
+///
+/// # Errors
+/// Names the ball, what of it was refused, and what is needed.
+pub fn check_ball(index: usize, ball: &Metaball) -> Result<(), SceneError> {
     let usable = |coordinate: f32| coordinate.abs() <= RADIUS_LIMITS.1;
     if !ball.center.to_array().into_iter().all(usable) {
         return Err(SceneError::Center { index, found: ball.center });

@@ -4,15 +4,19 @@
 //! smallest at its farthest, so sums of the two bound the field. A box in which the field stays at T
 //! or below is dropped; one in which it is above T everywhere is a solid leaf, without a list. Only
 //! boxes that could hold surface are divided: the cost follows the surface, not the volume.
+//!
+//! Sums of either kind end as soon as they are above T. So what is certainly solid, and what is
+//! certainly not empty, is told from a few balls; and balls that do not hold the whole box, most of
+//! them in all but the smallest boxes, add nothing to the least and are passed by in f32.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3A};
 use metaball_core::Aabb;
 
-use super::{Builder, Division, Part, partition};
+use super::{Builder, Division, Halves, Part, divide};
 use crate::ball::Ball;
-use crate::fit::Reach;
+use crate::fit::{Reach, keep_reaching};
 use crate::options::{Boxes, Classes, Cost};
-use crate::plane::{cut, cut_space, longest_axis};
+use crate::plane::{Plane, cut, cut_space, face, longest_axis};
 
 /// Sums of n ≤ 2³² non-negative f64 terms of a few products each err by less than this share.
 const ROUNDING: f64 = 1e-6;
@@ -21,111 +25,266 @@ const ROUNDING: f64 = 1e-6;
 /// side is as good, and parts surface from interior sooner.
 const WORTHWHILE: f32 = 0.85;
 
+/// Nor is there any such plane in boxes of fewer least radii than this: most balls reach across the
+/// box. So none is looked for.
+const TELLING: f32 = 3.0;
+
 /// Lists hold what reaches the box widened by this share of its sides: tracers may look so far past
 /// its faces (`widening` in `fbvh/local.wgsl`).
 const WIDENED: f32 = 4e-6;
 
-/// What is known of the field in a box.
-struct Range {
-    least: f64,
-    most: f64,
-    /// Mean radius of the balls, each weighted by the most that it adds.
-    radius: f64,
-}
-
 impl Builder {
-    /// Classifies the box of a node, and cuts it if it may hold surface and is too much for a leaf.
+    /// Cuts the box of a node if it may hold surface and is too much for a leaf.
     pub(super) fn divide_classified(
         &self,
         classes: &Classes,
         pool: &mut Vec<Ball>,
         part: &Part,
     ) -> Division {
-        let balls = &pool[part.splits.clone()];
-        let range = self.range(balls, &part.bounds);
-        let threshold = f64::from(self.threshold);
-        if range.most * (1.0 + ROUNDING) <= threshold {
-            return Division::Nothing;
-        }
-        if range.least * (1.0 - ROUNDING) > threshold {
+        let list = &pool[part.list.clone()];
+        // What has been found solid has no list.
+        if list.is_empty() {
             return Division::Leaf(0..0);
         }
-        let axis = longest_axis(&part.bounds);
-        let side = part.bounds.extent()[axis];
-        if part.depth >= self.max_depth
-            || balls.len() <= classes.leaf_size as usize
-            || f64::from(side) < f64::from(classes.smallest_side) * range.radius
-        {
-            return Division::Leaf(part.splits.clone());
+        if self.is_empty(list, &part.bounds) {
+            return Division::Nothing;
         }
-
-        let count = balls.len() as f32;
-        let bins = self.options.bins as usize;
-        let best = cut_space(balls.iter(), &part.bounds, bins, Cost::Linear)
-            .filter(|plane| plane.cost < WORTHWHILE * count);
-        let (axis, at) = match best {
-            Some(plane) => (plane.axis, plane.at),
-            None => (axis, part.bounds.center()[axis]),
+        let plane = match self.classified_plane(classes, list, part) {
+            Some(plane) if part.depth < self.max_depth => plane,
+            _ => return Division::Leaf(part.list.clone()),
         };
-        // Neighbouring floats have no middle.
-        if !(at > part.bounds.min[axis] && at < part.bounds.max[axis]) {
-            return Division::Leaf(part.splits.clone());
+        let wider = WIDENED * part.bounds.extent();
+        let face = widened(&face(&part.bounds, &plane), wider);
+        let (left, right) = divide(pool, &part.list, &plane, &face);
+        // A pile: what all balls reach is not told apart by cutting it.
+        if left.len().min(right.len()) == part.list.len() {
+            return Division::Leaf(part.list.clone());
         }
-        let (left_bounds, right_bounds) = cut(&part.bounds, axis, at);
-        let left = self.shrink(pool, part, left_bounds);
-        let right = self.shrink(pool, part, right_bounds);
-        match (left, right) {
+        let (left_bounds, right_bounds) = cut(&part.bounds, plane.axis, plane.at);
+        let depth = part.depth + 1;
+        let left = Part { list: left, bounds: left_bounds, cell: part.cell, depth };
+        let right = Part { list: right, bounds: right_bounds, cell: part.cell, depth };
+        match (self.classify(pool, &left), self.classify(pool, &right)) {
             (None, None) => Division::Nothing,
-            (Some(only), None) | (None, Some(only)) => Division::One(0..0, only),
-            (Some(left), Some(right)) => Division::Two(axis, (0..0, left), (0..0, right)),
-        }
-    }
-
-    /// The part of a node inside a box, fitted to where its balls can make a surface.
-    pub(super) fn shrink(&self, pool: &mut Vec<Ball>, from: &Part, bounds: Aabb) -> Option<Part> {
-        let start = pool.len();
-        let wide = widened(&bounds);
-        for at in from.splits.clone() {
-            let ball = pool[at];
-            if ball.reaches(&wide) {
-                pool.push(ball);
+            (Some(only), None) | (None, Some(only)) => Division::One(only),
+            (Some(left), Some(right)) => {
+                Division::Two(Halves { axis: plane.axis, left, right, left_own: 0 })
             }
         }
-        let balls = &mut pool[start..];
-        let reach = Reach::of(Boxes::PerBall, self.kernel, self.threshold, balls.iter())?;
-        let surface =
-            balls.iter().fold(Aabb::EMPTY, |bounds, ball| bounds.union(&reach.bounds(ball)));
-        let bounds = bounds.intersection(&surface);
-        if bounds.is_empty() {
-            pool.truncate(start);
-            return None;
-        }
-        let wide = widened(&bounds);
-        let kept = partition(balls, |ball| ball.reaches(&wide));
-        pool.truncate(start + kept);
-        Some(Part { splits: start..pool.len(), bounds, depth: from.depth + 1 })
     }
 
-    fn range(&self, balls: &[Ball], bounds: &Aabb) -> Range {
-        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-        let mut range = Range { least: 0.0, most: 0.0, radius: 0.0 };
-        for ball in balls {
-            let center = ball.center.as_dvec3();
-            let (radius, strength) = (f64::from(ball.radius), f64::from(ball.strength));
-            let part_at = |offset: DVec3| {
-                strength * self.kernel.value(offset.length_squared() / (radius * radius))
-            };
-            let most = part_at(center - center.clamp(low, high));
-            range.most += most;
-            range.least += part_at((center - low).abs().max((center - high).abs()));
-            range.radius += most * radius;
+    /// Takes the list off a part that is solid, and fits any other to where its balls can make a
+    /// surface. `None` where they cannot.
+    pub(super) fn classify(&self, pool: &mut [Ball], part: &Part) -> Option<Part> {
+        let list = &mut pool[part.list.clone()];
+        if self.is_solid(list, &part.bounds) {
+            return Some(Part { list: part.list.start..part.list.start, ..*part });
         }
-        range.radius /= range.most.max(f64::MIN_POSITIVE);
-        range
+        let reach = Reach::of(Boxes::PerBall, self.kernel, self.threshold, list)?;
+        let bounds = part.bounds.intersection(&reach.bounds(list));
+        if bounds.is_empty() {
+            return None;
+        }
+        let mut kept = list.len();
+        if bounds != part.bounds {
+            kept = keep_reaching(list, &widened(&bounds, WIDENED * bounds.extent()));
+        }
+        // No list means solid; so what nothing reaches must not stay.
+        (kept > 0).then(|| Part { list: part.list.start..part.list.start + kept, bounds, ..*part })
+    }
+
+    /// The plane to cut the node at; `None` where it had better be a leaf.
+    fn classified_plane(&self, classes: &Classes, list: &[Ball], part: &Part) -> Option<Plane> {
+        let axis = longest_axis(&part.bounds);
+        let side = part.bounds.extent()[axis];
+        let (least, largest) = radii(list);
+        let is_short = |radius: f32| side < classes.smallest_side * radius;
+        // The mean lies between the extremes, and takes longer.
+        if list.len() <= classes.leaf_size as usize
+            || is_short(least)
+            || is_short(largest) && is_short(self.mean_radius(list, &part.bounds))
+        {
+            return None;
+        }
+        let binned = || {
+            let bins = self.options.bins as usize;
+            cut_space(list, &part.bounds, bins, Cost::Linear)
+                .filter(|plane| plane.cost < WORTHWHILE * list.len() as f32)
+        };
+        let middle = Plane { axis, at: part.bounds.center()[axis], cost: f32::MAX };
+        let plane = if side > TELLING * least { binned().unwrap_or(middle) } else { middle };
+        // Neighbouring floats have no middle.
+        let (low, high) = (part.bounds.min[plane.axis], part.bounds.max[plane.axis]);
+        (low < plane.at && plane.at < high).then_some(plane)
+    }
+
+    /// Whether the field is certainly at T or below in the whole box.
+    fn is_empty(&self, list: &[Ball], bounds: &Aabb) -> bool {
+        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let threshold = f64::from(self.threshold) * (1.0 - ROUNDING);
+        let mut most = 0.0;
+        list.iter().all(|ball| {
+            let center = ball.center().as_dvec3();
+            most += self.part_at(ball, center - center.clamp(low, high));
+            most <= threshold
+        })
+    }
+
+    /// Whether the field is certainly above T in the whole box.
+    fn is_solid(&self, list: &[Ball], bounds: &Aabb) -> bool {
+        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+        let threshold = f64::from(self.threshold) * (1.0 + ROUNDING);
+        let mut least = 0.0;
+        list.iter().any(|ball| {
+            let center = ball.center();
+            let farthest = (center - near_low).max(near_high - center);
+            if farthest.length_squared() >= ball.radius() * ball.radius() {
+                return false;
+            }
+            let center = center.as_dvec3();
+            least += self.part_at(ball, (center - low).max(high - center));
+            least > threshold
+        })
+    }
+
+    /// Mean radius of the balls, each weighted by the most that it adds in the box.
+    fn mean_radius(&self, list: &[Ball], bounds: &Aabb) -> f32 {
+        let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+        let (sum, weights) = list.iter().fold((0.0, 0.0), |(sum, weights), ball| {
+            let offset = ball.center() - ball.center().clamp(low, high);
+            let radius = ball.radius();
+            let depth = 1.0 - offset.length_squared() / (radius * radius);
+            let weight = ball.strength * self.kernel.value_at_depth(depth);
+            (sum + weight * radius, weights + weight)
+        });
+        sum / weights.max(f32::MIN_POSITIVE)
+    }
+
+    /// What a ball adds to the field at an offset from its centre.
+    fn part_at(&self, ball: &Ball, offset: DVec3) -> f64 {
+        let radius = f64::from(ball.radius());
+        let ratio = offset.length_squared() / (radius * radius);
+        f64::from(ball.strength) * self.kernel.value(ratio)
     }
 }
 
-fn widened(bounds: &Aabb) -> Aabb {
-    let wider: Vec3 = WIDENED * bounds.extent();
+fn widened(bounds: &Aabb, wider: Vec3) -> Aabb {
     Aabb { min: bounds.min - wider, max: bounds.max + wider }
+}
+
+/// The least and the largest radius.
+fn radii(list: &[Ball]) -> (f32, f32) {
+    list.iter().fold((f32::MAX, 0.0), |(least, largest), ball| {
+        (least.min(ball.radius()), largest.max(ball.radius()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use metaball_core::Kernel;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::Options;
+
+    /// A box among balls of radii that differ by up to 10,000. Coordinates are few, so that faces go
+    /// through centres, rims and each other.
+    fn balls_and_box() -> impl Strategy<Value = (Vec<Ball>, Aabb)> {
+        let coordinate =
+            || prop_oneof![-2.0f32..2.0, (-4i8..=4).prop_map(|at| f32::from(at) / 2.0)];
+        let point = move || [coordinate(), coordinate(), coordinate()].prop_map(Vec3::from);
+        let radius = prop_oneof![
+            3 => 0.5f32..2.0,
+            1 => prop::sample::select(vec![1e-2f32, 1.0, 1.5, 1e2]),
+        ];
+        let ball = (point(), radius, 0.1f32..3.0);
+        let pile = prop::sample::select(vec![1usize, 1, 1, 40]);
+        let side = || prop_oneof![0.0f32..2.0, Just(0.0f32), Just(0.5f32), 1e-4f32..1e-2];
+        let sides = [side(), side(), side()].prop_map(Vec3::from);
+        (prop::collection::vec(ball, 1..12), pile, point(), sides).prop_map(
+            |(balls, pile, min, sides)| {
+                let piled = balls.into_iter().flat_map(|ball| std::iter::repeat_n(ball, pile));
+                let numbered = piled.enumerate().map(|(index, (center, radius, strength))| {
+                    Ball::new(center, radius, strength, index as u32)
+                });
+                (numbered.collect(), Aabb { min, max: min + sides })
+            },
+        )
+    }
+
+    /// The field's range over the corners, faces and inside of a box, and the points nearest to the
+    /// centres, from f64.
+    fn sampled(kernel: Kernel, balls: &[Ball], bounds: &Aabb) -> (f64, f64) {
+        const STEPS: usize = 6;
+        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let lattice = (0..(STEPS + 1).pow(3)).map(|at| {
+            let step = |divisor: usize| (at / divisor % (STEPS + 1)) as f64 / STEPS as f64;
+            let part = DVec3::new(step(1), step(STEPS + 1), step((STEPS + 1).pow(2)));
+            low * (1.0 - part) + high * part
+        });
+        let nearest = balls.iter().map(|ball| ball.center().as_dvec3().clamp(low, high));
+        lattice.chain(nearest).fold((f64::MAX, 0.0), |(least, most), point| {
+            let field: f64 = balls
+                .iter()
+                .map(|ball| {
+                    let radius = f64::from(ball.radius());
+                    let offset = ball.center().as_dvec3() - point;
+                    f64::from(ball.strength)
+                        * kernel.value(offset.length_squared() / radius.powi(2))
+                })
+                .sum();
+            (least.min(field), most.max(field))
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            cases: 2000,
+            failure_persistence: None,
+            ..ProptestConfig::default()
+        })]
+
+        /// T is set to what was sampled, so that verdicts are as tight as they get: where the field
+        /// takes its least at a point of the lattice, a box is neither solid nor, for its most, empty.
+        #[test]
+        fn verdicts_hold_where_the_field_is_sampled(
+            (balls, bounds) in balls_and_box(),
+            kernel in prop::sample::select(Kernel::all().collect::<Vec<_>>()),
+            part in prop::sample::select(vec![0.5f32, 0.99, 1.0, 1.01, 2.0]),
+        ) {
+            let (least, most) = sampled(kernel, &balls, &bounds);
+            for threshold in [least, most].map(|field| field as f32 * part) {
+                if threshold <= 0.0 {
+                    continue;
+                }
+                let options = Options::certified();
+                let builder = Builder { kernel, threshold, max_depth: 64, options };
+                let threshold = f64::from(threshold);
+                if builder.is_solid(&balls, &bounds) {
+                    prop_assert!(least > threshold, "solid, but {} <= {}", least, threshold);
+                }
+                if builder.is_empty(&balls, &bounds) {
+                    prop_assert!(most <= threshold, "empty, but {} > {}", most, threshold);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn one_ball_decides_what_it_holds() {
+        let ball = [Ball::new(Vec3::ZERO, 2.0, 1.0, 0)];
+        // The quartic is 9/16 at distance 1 and 1/16 at √3.
+        let builder = |threshold| Builder {
+            kernel: Kernel::QUARTIC,
+            threshold,
+            max_depth: 64,
+            options: Options::certified(),
+        };
+        let bounds = Aabb { min: Vec3::new(1.0, -1.0, -1.0), max: Vec3::ONE };
+        assert!(builder(0.0624).is_solid(&ball, &bounds));
+        assert!(!builder(0.0626).is_solid(&ball, &bounds));
+        assert!(!builder(0.5624).is_empty(&ball, &bounds));
+        assert!(builder(0.5626).is_empty(&ball, &bounds));
+    }
 }

@@ -2,10 +2,8 @@
 
 use std::ops::Range;
 
-use metaball_core::Aabb;
-
-use super::{Builder, Division, MEDIAN_FROM, Part, gather, partition};
-use crate::ball::Ball;
+use super::{Builder, Division, Halves, MEDIAN_FROM, Part};
+use crate::ball::{Ball, bounds_of, partition};
 use crate::plane::{centers_of, cut_centers, longest_axis};
 
 /// Split balls of nodes with at most this many own balls are tested against each of them; above, the
@@ -22,21 +20,20 @@ impl Builder {
         part: &Part,
     ) -> Division {
         let Some((axis, middle)) = self.part_centers(own, part) else {
-            return Division::Leaf(exact_splits(own, pool, &part.splits));
+            return Division::Leaf(exact_splits(own, pool, &part.list));
         };
         let (left_own, right_own) = own.split_at(middle);
         let side = |pool: &mut Vec<Ball>, own: &[Ball], others: &[Ball]| {
             let start = pool.len();
-            let bounds = own.iter().fold(Aabb::EMPTY, |around, ball| around.union(&ball.bounds()));
-            gather(pool, &part.splits, others, |ball| {
+            let bounds = bounds_of(own, Ball::radius);
+            gather(pool, &part.list, others, |ball| {
                 ball.reaches(&bounds) && (own.len() > EXACT_UP_TO || meets_any(ball, own))
             });
-            let splits = start..pool.len();
-            Part { splits, bounds, depth: part.depth + 1 }
+            Part { list: start..pool.len(), bounds, cell: part.cell, depth: part.depth + 1 }
         };
         let left = side(pool, left_own, right_own);
         let right = side(pool, right_own, left_own);
-        Division::Two(axis, (0..middle, left), (middle..own.len(), right))
+        Division::Two(Halves { axis, left, right, left_own: middle })
     }
 
     /// Moves the balls that belong to the left to the front, and returns the axis and how many they
@@ -57,19 +54,19 @@ impl Builder {
             (longest, centers.center()[longest])
         } else {
             let plane = cut_centers(own, &part.bounds, options.bins as usize, options.cost)?;
-            if options.traversal_cost + plane.cost >= options.cost.of(own.len()) {
+            if options.traversal_cost + plane.cost >= options.cost.of(own.len() as f32) {
                 return None;
             }
             (plane.axis, plane.at)
         };
-        let left = partition(own, |ball| ball.center[axis] < at);
+        let left = partition(own, |ball| ball.center()[axis] < at);
         if left > 0 && left < own.len() {
             return Some((axis, left));
         }
         // No plane, or one that rounding has moved past the last centre: halve by number.
         let middle = own.len() / 2;
         own.select_nth_unstable_by(middle, |a, b| {
-            a.center[axis].total_cmp(&b.center[axis]).then(a.index.cmp(&b.index))
+            a.center()[axis].total_cmp(&b.center()[axis]).then(a.index.cmp(&b.index))
         });
         Some((axis, middle))
     }
@@ -87,4 +84,20 @@ fn exact_splits(own: &[Ball], pool: &mut Vec<Ball>, splits: &Range<usize>) -> Ra
 
 fn meets_any(ball: &Ball, own: &[Ball]) -> bool {
     own.iter().any(|other| ball.overlaps(other))
+}
+
+/// Appends to the pool those of a list in it and of `others` that satisfy the test.
+fn gather(
+    pool: &mut Vec<Ball>,
+    list: &Range<usize>,
+    others: &[Ball],
+    test: impl Fn(&Ball) -> bool,
+) {
+    for at in list.clone() {
+        let ball = pool[at];
+        if test(&ball) {
+            pool.push(ball);
+        }
+    }
+    pool.extend(others.iter().filter(|ball| test(ball)));
 }
