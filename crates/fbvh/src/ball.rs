@@ -60,20 +60,31 @@ pub(crate) fn sphere_meets(center: Vec3A, radius: f32, bounds: &Aabb) -> bool {
     outside.length_squared() <= radius * radius * SLACK
 }
 
-/// The box around spheres about the balls' centres, of the radii that are given. No point of a sphere
-/// is lost to rounding: the box is a float wider on every side.
+/// The box around the support spheres.
+pub(crate) fn bounds_of(balls: &[Ball]) -> Aabb {
+    let everything = Aabb { min: Vec3::NEG_INFINITY, max: Vec3::INFINITY };
+    bounds_within(&everything, balls, Ball::radius)
+}
+
+/// The part of a box around spheres about the balls' centres, of the radii that are given. No point of
+/// a sphere is lost to rounding: the box around them is a float wider on every side. Ends with the ball
+/// that completes the whole of `bounds`: in dense places one of the first.
 #[inline]
-pub(crate) fn bounds_of(balls: &[Ball], radius: impl Fn(&Ball) -> f32) -> Aabb {
+pub(crate) fn bounds_within(bounds: &Aabb, balls: &[Ball], radius: impl Fn(&Ball) -> f32) -> Aabb {
+    let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
     let (mut min, mut max) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
     for ball in balls {
         let radius = Vec3A::splat(radius(ball));
         min = min.min(ball.center() - radius);
         max = max.max(ball.center() + radius);
+        if (min.cmple(low) & max.cmpge(high)).all() {
+            return *bounds;
+        }
     }
     let each = |corner: Vec3A, round: fn(f32) -> f32| {
         Vec3::new(round(corner.x), round(corner.y), round(corner.z))
     };
-    Aabb { min: each(min, f32::next_down), max: each(max, f32::next_up) }
+    Aabb { min: each(min, f32::next_down), max: each(max, f32::next_up) }.intersection(bounds)
 }
 
 /// Moves the balls that satisfy the test to the front, in their order, and returns how many they are.

@@ -154,7 +154,7 @@ struct Halves {
 impl Builder {
     /// Builds the tree of all balls, if there is any surface.
     fn root(&self, balls: &mut Vec<Ball>, branch: &mut Branch) -> Option<(u32, Aabb)> {
-        let bounds = bounds_of(balls, Ball::radius);
+        let bounds = bounds_of(balls);
         let whole = Part { list: 0..0, bounds, cell: Cell::ALL, depth: 0 };
         let all = Part { list: 0..balls.len(), ..whole.clone() };
         match self.options.structure {

@@ -2,7 +2,7 @@
 
 use metaball_core::{Aabb, Kernel};
 
-use crate::ball::{Ball, bounds_of, retain, sphere_meets};
+use crate::ball::{Ball, bounds_within, retain, sphere_meets};
 use crate::options::Boxes;
 
 /// The radius rᵢ = min(Rᵢ·`factor`, `limit`) around each ball of a node outside of all of which the
@@ -46,9 +46,9 @@ impl Reach {
         (ball.radius() * self.factor).min(self.limit)
     }
 
-    /// The box around the surface that the balls can make.
-    pub(crate) fn bounds(self, balls: &[Ball]) -> Aabb {
-        bounds_of(balls, |ball| self.radius(ball))
+    /// The part of a box around the surface that the balls can make in it.
+    pub(crate) fn clip(self, balls: &[Ball], bounds: &Aabb) -> Aabb {
+        bounds_within(bounds, balls, |ball| self.radius(ball))
     }
 }
 

@@ -138,6 +138,19 @@ fn coincident_balls_are_one_leaf() {
 }
 
 #[test]
+fn balls_that_all_overlap_are_no_pile() {
+    let mut state = 7u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / (1 << 24) as f32
+    };
+    let balls = (0..200).map(|_| Metaball::new(Vec3::new(random(), random(), random()), 1.8));
+    let scene = Scene::new(balls, Kernel::QUARTIC, 20.0).expect("legal");
+    let stats = Tree::build(&scene, &Options::certified()).expect("legal options").stats();
+    assert!(stats.leaves > 8, "{stats:?}");
+}
+
+#[test]
 fn bins_out_of_range_are_refused() {
     let scene = Scene::new([], Kernel::QUARTIC, 0.5).expect("legal");
     let error = Tree::build(&scene, &Options { bins: 1, ..Options::fitted() });

@@ -16,7 +16,7 @@ use super::{Builder, Division, Halves, Part, divide};
 use crate::ball::Ball;
 use crate::fit::{Reach, keep_reaching};
 use crate::options::{Boxes, Classes, Cost};
-use crate::plane::{Plane, cut, cut_space, face, longest_axis};
+use crate::plane::{Plane, centers_of, cut, cut_space, face, longest_axis};
 
 /// Sums of n ≤ 2³² non-negative f64 terms of a few products each err by less than this share.
 const ROUNDING: f64 = 1e-6;
@@ -28,6 +28,10 @@ const WORTHWHILE: f32 = 0.85;
 /// Nor is there any such plane in boxes of fewer least radii than this: most balls reach across the
 /// box. So none is looked for.
 const TELLING: f32 = 3.0;
+
+/// Balls are a pile where their centres are in a box of at most this share of the least radius: at the
+/// smallest side that boxes are cut down to, hardly one of them would be off any list.
+const PILED: f32 = 0.125;
 
 /// Lists hold what reaches the box widened by this share of its sides: tracers may look so far past
 /// its faces (`widening` in `fbvh/local.wgsl`).
@@ -56,8 +60,7 @@ impl Builder {
         let wider = WIDENED * part.bounds.extent();
         let face = widened(&face(&part.bounds, &plane), wider);
         let (left, right) = divide(pool, &part.list, &plane, &face);
-        // A pile: what all balls reach is not told apart by cutting it.
-        if left.len().min(right.len()) == part.list.len() {
+        if left.len().min(right.len()) == part.list.len() && is_pile(&pool[part.list.clone()]) {
             return Division::Leaf(part.list.clone());
         }
         let (left_bounds, right_bounds) = cut(&part.bounds, plane.axis, plane.at);
@@ -81,7 +84,7 @@ impl Builder {
             return Some(Part { list: part.list.start..part.list.start, ..*part });
         }
         let reach = Reach::of(Boxes::PerBall, self.kernel, self.threshold, list)?;
-        let bounds = part.bounds.intersection(&reach.bounds(list));
+        let bounds = reach.clip(list, &part.bounds);
         if bounds.is_empty() {
             return None;
         }
@@ -171,6 +174,12 @@ impl Builder {
 
 fn widened(bounds: &Aabb, wider: Vec3) -> Aabb {
     Aabb { min: bounds.min - wider, max: bounds.max + wider }
+}
+
+/// Whether the balls are almost in one place: cut where they all are, a box gets parts that all of
+/// them reach, again and again.
+fn is_pile(list: &[Ball]) -> bool {
+    centers_of(list).extent().max_element() <= PILED * radii(list).0
 }
 
 /// The least and the largest radius.

@@ -38,7 +38,7 @@ impl Builder {
         let reach = Reach::of(fitting.boxes, self.kernel, self.threshold, list)?;
         let bounds = match fitting.boxes {
             Boxes::Cut => part.bounds,
-            _ => reach.bounds(list).intersection(&part.bounds),
+            _ => reach.clip(list, &part.bounds),
         };
         if bounds.is_empty() {
             return None;

@@ -25,7 +25,7 @@ impl Builder {
         let (left_own, right_own) = own.split_at(middle);
         let side = |pool: &mut Vec<Ball>, own: &[Ball], others: &[Ball]| {
             let start = pool.len();
-            let bounds = bounds_of(own, Ball::radius);
+            let bounds = bounds_of(own);
             gather(pool, &part.list, others, |ball| {
                 ball.reaches(&bounds) && (own.len() > EXACT_UP_TO || meets_any(ball, own))
             });
