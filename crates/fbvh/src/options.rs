@@ -32,7 +32,8 @@ pub enum Structure {
 /// When a box that may hold surface is a leaf of the certified tree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Classes {
-    /// Boxes reached by at most this many balls are not divided further.
+    /// Boxes reached by at most this many balls are not divided further; nor are those of at most twice
+    /// as many where a cut would leave most of them on both sides.
     pub leaf_size: u32,
     /// Nor are boxes whose longest side is below this share of their balls' radius, the mean
     /// weighted by what each adds.

@@ -29,6 +29,10 @@ const WORTHWHILE: f32 = 0.85;
 /// box. So none is looked for.
 const TELLING: f32 = 3.0;
 
+/// A cut that puts more than this share of the balls on both sides is not worth its two lists in a box
+/// of up to twice as many balls as a leaf has anyway.
+const TWICE: f32 = 0.6;
+
 /// Balls are a pile where their centres are in a box of at most this share of the least radius: at the
 /// smallest side that boxes are cut down to, hardly one of them would be off any list.
 const PILED: f32 = 0.125;
@@ -118,7 +122,18 @@ impl Builder {
         let plane = if side > TELLING * least { binned().unwrap_or(middle) } else { middle };
         // Neighbouring floats have no middle.
         let (low, high) = (part.bounds.min[plane.axis], part.bounds.max[plane.axis]);
-        (low < plane.at && plane.at < high).then_some(plane)
+        (low < plane.at && plane.at < high && Self::tells_apart(classes, list, part, &plane))
+            .then_some(plane)
+    }
+
+    /// Whether a cut shortens the lists, where a box is almost small enough for a leaf.
+    fn tells_apart(classes: &Classes, list: &[Ball], part: &Part, plane: &Plane) -> bool {
+        if list.len() > 2 * classes.leaf_size as usize {
+            return true;
+        }
+        let face = face(&part.bounds, plane);
+        let crossing = list.iter().filter(|ball| ball.reaches(&face)).count();
+        crossing as f32 <= TWICE * list.len() as f32
     }
 
     /// Whether the field is certainly at T or below in the whole box.
