@@ -31,3 +31,13 @@ pub(crate) fn walk_around(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
         })
         .collect()
 }
+
+/// Three cameras along one direction: [`framing`]'s, and from a half and a quarter of its distance.
+pub(crate) fn come_near(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
+    let center = bounds.center();
+    let near = |share: f32| {
+        let half = 0.5 * share * bounds.extent();
+        framing(&Aabb { min: center - half, max: center + half }, direction)
+    };
+    [1.0, 0.5, 0.25].map(near).to_vec()
+}

@@ -67,6 +67,31 @@ const CASES: &[Case] = &[
         make: grazing,
     },
     Case {
+        name: "two-levels",
+        about: "Two balls over several thresholds: one surface, a neck, two, none (Illés and Szécsi, \
+                figure 2).",
+        parameter: "threshold",
+        values: &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.1],
+        make: |value| {
+            let scene = pair(0.5)?.with_kernel(Kernel::Wyvill).with_threshold(value as f32)?;
+            Ok((scene, looking(Vec3::new(0.0, 0.6, 5.0), Vec3::ZERO)?))
+        },
+    },
+    Case {
+        name: "effective-radii",
+        about: "A lattice of balls whose radii are swept, from apart to one body (Illés and Szécsi, \
+                figure 3).",
+        parameter: "radius, spacings of the lattice",
+        values: &[0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0],
+        make: |value| {
+            let sites = (0..75).map(|site| {
+                Vec3::new((site % 5 - 2) as f32, (site / 25 - 1) as f32, (site / 5 % 5 - 2) as f32)
+            });
+            let scene = quartic(sites.map(|site| Metaball::new(site, value as f32)))?;
+            Ok((scene.with_kernel(Kernel::Wyvill), looking(Vec3::new(6.0, 7.0, 12.0), Vec3::ZERO)?))
+        },
+    },
+    Case {
         name: "coincident",
         about: "So many equal balls at one place: lists and arrays overflow.",
         parameter: "number of balls",

@@ -111,6 +111,7 @@ const KNOWN: &[KnownScene] = &[
         "A fountain of 100,000 balls (Kanamori, figure 12).",
         Generated("fountain:100000"),
     ),
+    large("mud-200k", "A tongue of mud of 200,000 balls, in three views.", Generated("mud:200000")),
     small("one-power-1", "One ball, power kernel α = 1.", Small(|| small::one_power(1))),
     small("one-power-2", "One ball, power kernel α = 2.", Small(|| small::one_power(2))),
     small("one-power-3", "One ball, power kernel α = 3.", Small(|| small::one_power(3))),

@@ -7,13 +7,15 @@
 
 mod cloud;
 mod fountain;
+mod lattice;
+mod mud;
 mod pool;
 mod tornado;
 
 use glam::Vec3;
-use metaball_core::{Kernel, Metaball, Scene};
+use metaball_core::{Aabb, Camera, Kernel, Metaball, Scene};
 
-use crate::cameras::{framing, walk_around};
+use crate::cameras::{come_near, framing, walk_around};
 use crate::density::{Placed, scale_for};
 use crate::error::LoadError;
 use crate::random::Random;
@@ -41,12 +43,15 @@ pub struct Generator {
     place: fn(usize, &mut Random) -> Vec<Placed>,
     /// From the middle of the balls to the eye.
     seen_from: Vec3,
+    /// The path of cameras, from the balls' bounds and `seen_from`.
+    path: fn(&Aabb, Vec3) -> Vec<Camera>,
 }
 
 /// All generators.
 ///
 /// Gourmel's scenes (2010, figure 8) have their quartic at T = 0.2, Kanamori's (2008) have Wyvill's
-/// kernel at T = 0.5; neither paper gives positions or radii.
+/// kernel at T = 0.5, and so has Illés and Szécsi's, of which no threshold is printed; no paper gives
+/// positions or radii.
 pub fn generators() -> &'static [Generator] {
     const GENERATORS: &[Generator] = &[
         Generator {
@@ -57,6 +62,7 @@ pub fn generators() -> &'static [Generator] {
             threshold: 0.2,
             place: cloud::scattered,
             seen_from: Vec3::new(0.5, 0.35, 1.0),
+            path: walk_around,
         },
         Generator {
             name: "random",
@@ -66,6 +72,7 @@ pub fn generators() -> &'static [Generator] {
             threshold: 0.5,
             place: cloud::random,
             seen_from: Vec3::new(0.5, 0.35, 1.0),
+            path: walk_around,
         },
         Generator {
             name: "tornado",
@@ -75,6 +82,7 @@ pub fn generators() -> &'static [Generator] {
             threshold: 0.2,
             place: tornado::tornado,
             seen_from: Vec3::new(0.0, 0.25, 1.0),
+            path: walk_around,
         },
         Generator {
             name: "pool",
@@ -84,6 +92,7 @@ pub fn generators() -> &'static [Generator] {
             threshold: 0.2,
             place: pool::pool,
             seen_from: Vec3::new(0.4, 0.45, 1.0),
+            path: walk_around,
         },
         Generator {
             name: "fountain",
@@ -93,6 +102,18 @@ pub fn generators() -> &'static [Generator] {
             threshold: 0.5,
             place: fountain::fountain,
             seen_from: Vec3::new(0.0, 0.35, 1.0),
+            path: walk_around,
+        },
+        Generator {
+            name: "mud",
+            about: "A tongue of mud at the foot of a slope, seen from nearer and nearer (Illés and \
+                    Szécsi, figure 7).",
+            density: 20.0,
+            kernel: Kernel::Wyvill,
+            threshold: 0.5,
+            place: mud::mud,
+            seen_from: Vec3::new(1.0, 0.75, 0.55),
+            path: come_near,
         },
     ];
     GENERATORS
@@ -161,7 +182,7 @@ impl Generator {
             name: format!("{}:{count}:{density}:{seed}", self.name),
             about: self.about.to_owned(),
             camera: framing(&bounds, self.seen_from),
-            path: walk_around(&bounds, self.seen_from),
+            path: (self.path)(&bounds, self.seen_from),
             kind: Kind::General,
             scene,
         })
@@ -202,6 +223,7 @@ mod tests {
             ("tornado", 0xf57f9ed8e0b09073),
             ("pool", 0x32461d46e849d0ba),
             ("fountain", 0xd975846822022b5b),
+            ("mud", 0x2dc38b66b2662ed4),
         ];
         assert_eq!(found, expected);
     }

@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::lattice::Under;
 use crate::density::Placed;
 use crate::exact::turn;
 use crate::random::Random;
@@ -16,7 +17,7 @@ const FALL: (f64, f64) = (0.25, 0.1);
 
 pub(super) fn pool(count: usize, random: &mut Random) -> Vec<Placed> {
     let splash = count / 25;
-    let mut centers = fluid(count - splash, random);
+    let mut centers = Under { half: HALF, depth: DEPTH, surface }.fill(count - splash, random);
     centers.extend((0..splash).map(|_| thrown(random)));
     centers.into_iter().map(|center| Placed { center, size: 1.0 }).collect()
 }
@@ -28,48 +29,6 @@ fn surface(x: f64, z: f64) -> f64 {
     let away = ((x - FALL.0) * (x - FALL.0) + (z - FALL.1) * (z - FALL.1)).sqrt();
     let rings = 0.09 * turn(3.5 * away).x / (1.0 + 12.0 * away * away);
     DEPTH + swell - rings
-}
-
-/// `count` sites of a lattice under the surface, each moved by up to a third of the spacing: the
-/// lattice is refined until it has enough, and the highest sites are left out.
-fn fluid(count: usize, random: &mut Random) -> Vec<DVec3> {
-    let mut layers = 1;
-    loop {
-        let sites = sites(layers);
-        if sites.len() >= count {
-            return thin(sites, count, DEPTH / f64::from(layers), random);
-        }
-        layers += 1;
-    }
-}
-
-/// Lattice sites under the surface, with so many layers to the depth at rest.
-fn sites(layers: u32) -> Vec<DVec3> {
-    let spacing = DEPTH / f64::from(layers);
-    let steps = |half: f64| (half / spacing) as i32;
-    let mut sites = Vec::new();
-    for column in -steps(HALF.0)..=steps(HALF.0) {
-        for row in -steps(HALF.1)..=steps(HALF.1) {
-            let (x, z) = (spacing * f64::from(column), spacing * f64::from(row));
-            let height = surface(x, z);
-            let layers = (height / spacing) as i32;
-            sites.extend(
-                (0..layers).map(|layer| DVec3::new(x, spacing * (f64::from(layer) + 0.5), z)),
-            );
-        }
-    }
-    sites
-}
-
-/// Keeps `count` of the sites, evenly over the tank, and moves them.
-fn thin(sites: Vec<DVec3>, count: usize, spacing: f64, random: &mut Random) -> Vec<DVec3> {
-    let all = sites.len();
-    let kept = sites
-        .into_iter()
-        .enumerate()
-        .filter(|(index, _)| (index + 1) * count / all > index * count / all)
-        .map(|(_, site)| site);
-    kept.map(|site| site + random.in_box(DVec3::splat(spacing / 3.0))).collect()
 }
 
 /// In the crown around the fall, or a drop above it.
