@@ -105,6 +105,8 @@ pub const MODULES: &[Module] = &[
     import!("illes_fraglist/crowd_searched"),
     entry!("illes_fraglist/cores"),
     entry!("illes_fraglist/gather"),
+    import!("illes_fraglist/prefix"),
+    entry!("illes_fraglist/radix"),
     import!("illes_fraglist/tiles"),
     entry!("illes_fraglist/bin"),
     entry!("illes_fraglist/collect"),

@@ -288,7 +288,7 @@ fn measured(
     Measured {
         build_ms: milliseconds(contender.build.structure),
         upload_bytes: contender.build.upload_bytes,
-        device_bytes: contender.build.device_bytes,
+        device_bytes: contender.device_bytes(),
         frame_ms: timing.frame_ms,
         passes: timing.passes,
         fallback_pixels: count(|hit| hit.fallback),

@@ -13,7 +13,8 @@ use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
 use harness::render::{Device, Order, render};
-use harness::tables::{gourmel, kanamori};
+use harness::tables::gourmel::plan::Extent;
+use harness::tables::{gourmel, illes, kanamori};
 use harness::{console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
@@ -115,6 +116,23 @@ enum Paper {
         #[arg(long)]
         full: bool,
         /// Folder for kanamori.html and kanamori.json.
+        #[arg(long, value_name = "DIR", default_value = "out/tables")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
+    },
+    /// Illés and Szécsi: table 1, how its phases grow, lists, figure 7, errors by kernel, memory.
+    Illes {
+        /// Hundreds of particles, small pictures: seconds, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// All rows; without it those that fit into ten minutes.
+        #[arg(long, conflicts_with = "quick")]
+        full: bool,
+        /// Pixels across and down of table 1; 1024x768 when left out.
+        #[arg(long, value_name = "WxH")]
+        size: Option<Size>,
+        /// Folder for illes.html and illes.json.
         #[arg(long, value_name = "DIR", default_value = "out/tables")]
         out: PathBuf,
         #[command(flatten)]
@@ -251,6 +269,15 @@ fn run(command: Command) -> anyhow::Result<()> {
                 (false, true) => kanamori::plan::Extent::Full,
             };
             kanamori::tables(&kanamori::Order { extent, adapter: device.choice(), out })
+        }
+        Command::Tables { paper: Paper::Illes { quick, full, size, out, device } } => {
+            let extent = match (quick, full) {
+                (true, _) => illes::Extent::Quick,
+                (_, true) => illes::Extent::Full,
+                _ => illes::Extent::Default,
+            };
+            let size = size.map(|Size(width, height)| (width, height));
+            illes::tables(&illes::Order { extent, size, adapter: device.choice(), out })
         }
         Command::Scenes => {
             list::scenes();

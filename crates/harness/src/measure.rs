@@ -65,6 +65,11 @@ impl Contender {
         let hits = targets.read_hits(gpu)?;
         Ok(Self { build, hits, renderer })
     }
+
+    /// Bytes that it holds on the device by now, for the scene and for its frames.
+    pub fn device_bytes(&self) -> u64 {
+        self.build.device_bytes + self.renderer.frame_bytes()
+    }
 }
 
 /// Draws every view with every contender, in turn: A B A B, so that a machine that grows hot or busy

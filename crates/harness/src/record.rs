@@ -128,7 +128,8 @@ pub struct Measured {
     pub build_ms: f64,
     /// Bytes sent to the device by the build.
     pub upload_bytes: u64,
-    /// Bytes that the method holds on the device.
+    /// Bytes that the method holds on the device, for the scene and for its frames; the shared targets
+    /// are not among them.
     pub device_bytes: u64,
     /// From the start of encoding to the fence.
     pub frame_ms: Samples,

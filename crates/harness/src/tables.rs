@@ -1,4 +1,5 @@
 //! Tables that papers print, measured anew and set beside the printed numbers.
 
 pub mod gourmel;
+pub mod illes;
 pub mod kanamori;

@@ -143,6 +143,20 @@ impl Canvas {
             + self.tiles.as_ref().map_or(0, TileRoom::bytes)
     }
 
+    /// Length of each pixel's list, row by row from the top left.
+    pub(crate) fn list_lengths(&self, gpu: &Gpu) -> Result<Vec<u32>, RenderError> {
+        // The head is as large as a node, and places count from 1.
+        const { assert!(size_of::<PoolHead>() == size_of::<Node>()) };
+        let nodes = gpu.read::<Node>(&self.pool)?;
+        let length = |head: u32| {
+            let mut places = std::iter::successors(Some(head), |&place| {
+                (place != 0).then(|| nodes[place as usize].next)
+            });
+            places.by_ref().take_while(|&place| place != 0).count() as u32
+        };
+        Ok(gpu.read::<u32>(&self.heads)?.into_iter().map(length).collect())
+    }
+
     /// What the last frame left in the head of the pool.
     pub(crate) fn stats(&self, gpu: &Gpu) -> Result<ListStats, RenderError> {
         let bytes = size_of::<PoolHead>() as u64;

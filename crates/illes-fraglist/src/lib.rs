@@ -13,7 +13,7 @@
 //!
 //! | label | what |
 //! | --- | --- |
-//! | `cpu:sort` | balls by *effective distance* \|p − e\| − R, in parallel on the host |
+//! | `cpu:sort` or `sort` | balls by *effective distance* \|p − e\| − R, in parallel on the host, or by [`Sort::Device`] |
 //! | `cores` | distance to the nearest *core*: the sphere in which a ball alone reaches the threshold |
 //! | `gather` | each ball's rank into the lists of the pixels whose rays meet its support before the core |
 //! | `cast` | lists into separators in a short array, from which those in the *safe zone*, nearer than any ball to come, are passed one by one (section 6) |
@@ -85,6 +85,7 @@ mod canvas;
 mod deviation;
 mod options;
 mod pipelines;
+mod radix;
 mod raster;
 mod renderer;
 mod sort;
@@ -92,5 +93,5 @@ mod tiles;
 
 pub use canvas::ListStats;
 pub use deviation::{Deviation, cubic_deviation};
-pub use options::{Gather, MOST_ROOM, Options, Piece};
+pub use options::{Gather, MOST_ROOM, Options, Piece, Sort};
 pub use renderer::Renderer;

@@ -27,6 +27,15 @@ pub enum Gather {
     Tiles,
 }
 
+/// Where balls are sorted by effective distance, once a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Sort {
+    /// On the host, in parallel, as published; the order is sent to the device.
+    Host,
+    /// On the device, by radix sort. Not published.
+    Device,
+}
+
 /// Settings of a renderer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
@@ -34,6 +43,8 @@ pub struct Options {
     pub piece: Piece,
     /// How the lists are gathered.
     pub gather: Gather,
+    /// Where balls are sorted.
+    pub sort: Sort,
     /// Separators in a ray's local array, from 3 to [`MOST_ROOM`]; others are taken as the nearest
     /// of these. The paper has "surely less than 100".
     pub room: u32,
@@ -48,7 +59,13 @@ pub const MOST_ROOM: u32 = 96;
 impl Default for Options {
     /// The published method; 8 MB of nodes.
     fn default() -> Self {
-        Self { piece: Piece::Cubic, gather: Gather::Raster, room: MOST_ROOM, first_nodes: 1 << 20 }
+        Self {
+            piece: Piece::Cubic,
+            gather: Gather::Raster,
+            sort: Sort::Host,
+            room: MOST_ROOM,
+            first_nodes: 1 << 20,
+        }
     }
 }
 

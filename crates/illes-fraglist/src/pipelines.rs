@@ -3,7 +3,8 @@
 use metaball_core::Kernel;
 use metaball_core::gpu::{Gpu, RenderError, Shader, Specialization, frame_layout, scene_layout};
 
-use crate::options::{Gather, MOST_ROOM, Options, exact_degree};
+use crate::options::{Gather, MOST_ROOM, Options, Sort, exact_degree};
+use crate::radix::RadixSort;
 use crate::raster::RasterGather;
 use crate::tiles::{TileGather, tile_layout};
 
@@ -29,6 +30,8 @@ pub(crate) enum GatherPasses {
 pub(crate) struct Pipelines {
     pub(crate) specialized: Specialization,
     pub(crate) layouts: Layouts,
+    /// Where balls are sorted on the device.
+    pub(crate) radix: Option<RadixSort>,
     pub(crate) gather: GatherPasses,
     pub(crate) cast: wgpu::ComputePipeline,
 }
@@ -46,6 +49,10 @@ impl Pipelines {
             lists: list_layout(gpu),
             tiles: tile_layout(gpu),
         };
+        let radix = match options.sort {
+            Sort::Host => None,
+            Sort::Device => Some(RadixSort::new(gpu, &specialized, &layouts)?),
+        };
         let gather = match options.gather {
             Gather::Raster => GatherPasses::Raster(RasterGather::new(gpu, &specialized, &layouts)?),
             Gather::Tiles => GatherPasses::Tiles(TileGather::new(gpu, &specialized, &layouts)?),
@@ -59,7 +66,7 @@ impl Pipelines {
             &[frame, scene, balls, lists],
             &cast_constants(specialized.kernel, options),
         )?;
-        Ok(Self { specialized, gather, cast, layouts })
+        Ok(Self { specialized, radix, gather, cast, layouts })
     }
 }
 

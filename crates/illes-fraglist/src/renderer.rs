@@ -4,12 +4,14 @@ use std::time::{Duration, Instant};
 
 use metaball_core::gpu::{
     BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderError, SceneBuffers, Specialization,
+    Targets,
 };
-use metaball_core::{Scene, Support};
+use metaball_core::{Scene, Support, View};
 
 use crate::canvas::{Canvas, ListStats, Rooms};
 use crate::options::{Gather, Options};
-use crate::pipelines::{GatherPasses, Layouts, Pipelines};
+use crate::pipelines::{GatherPasses, Pipelines};
+use crate::radix::SortRoom;
 use crate::sort::by_effective_distance;
 
 /// Entries of tiles that a renderer begins with: 1 MB.
@@ -35,8 +37,11 @@ pub(crate) struct Built {
     /// Kept to be sorted for each frame.
     supports: Vec<Support>,
     ball_of_rank: wgpu::Buffer,
+    /// Where balls are sorted on the device.
+    sort_room: Option<SortRoom>,
     pub(crate) bind_group: wgpu::BindGroup,
-    bytes: u64,
+    upload_bytes: u64,
+    device_bytes: u64,
 }
 
 impl Renderer {
@@ -67,9 +72,68 @@ impl Renderer {
         self.canvas.as_ref().map(|canvas| canvas.stats(gpu)).transpose()
     }
 
-    /// Bytes on the device that the last frame's size takes, list nodes included.
-    pub fn canvas_bytes(&self) -> u64 {
-        self.canvas.as_ref().map_or(0, Canvas::bytes)
+    /// How many balls are in each pixel's list, row by row from the top left. Draws a frame of its own
+    /// up to the lists, again where the pool was too small; nothing is cast.
+    ///
+    /// # Errors
+    /// When there is no scene, or no room for the lists.
+    pub fn list_lengths(
+        &mut self,
+        gpu: &Gpu,
+        targets: &Targets,
+        view: &View,
+    ) -> Result<Vec<u32>, RenderError> {
+        loop {
+            let mut frame = Frame::begin(gpu, targets, view)?;
+            self.record_lists(&mut frame)?;
+            let status = frame.finish()?.status;
+            if status.is_complete() {
+                let canvas = self.canvas.as_ref();
+                return canvas
+                    .ok_or(RenderError::NotBuilt { method: self.name })?
+                    .list_lengths(gpu);
+            }
+            self.grow(gpu, &status)?;
+        }
+    }
+
+    /// The balls of the last frame in their order.
+    #[cfg(test)]
+    pub(crate) fn order(&self, gpu: &Gpu) -> Result<Option<Vec<u32>>, RenderError> {
+        self.built.as_ref().map(|built| gpu.read(&built.ball_of_rank)).transpose()
+    }
+
+    /// The passes up to the lists.
+    fn record_lists(&mut self, frame: &mut Frame<'_>) -> Result<(), RenderError> {
+        let (Some(pipelines), Some(built)) = (&self.pipelines, &self.built) else {
+            return Err(RenderError::NotBuilt { method: self.name });
+        };
+        let (gpu, targets) = (frame.gpu(), frame.targets());
+        let canvas = match self.canvas.take() {
+            Some(canvas) if canvas.fits(targets, self.rooms) => canvas,
+            _ => Canvas::new(gpu, &pipelines.layouts, targets, self.rooms)?,
+        };
+        let canvas = self.canvas.insert(canvas);
+
+        match (&pipelines.radix, &built.sort_room) {
+            (Some(radix), Some(room)) => radix.record(frame, built.scene.bind_group(), room),
+            _ => {
+                // With the transfer, as in the paper's table 1.
+                let camera = frame.view().camera();
+                frame.cpu("sort", || {
+                    let order = by_effective_distance(&built.supports, camera);
+                    let bytes = bytemuck::cast_slice(&order);
+                    gpu.checked(|| gpu.queue.write_buffer(&built.ball_of_rank, 0, bytes))
+                })?;
+            }
+        }
+        canvas.clear(frame.encoder());
+        match (&pipelines.gather, &canvas.tiles) {
+            (GatherPasses::Raster(passes), _) => passes.record(frame, built, canvas),
+            (GatherPasses::Tiles(passes), Some(tiles)) => passes.record(frame, built, tiles),
+            (GatherPasses::Tiles(_), None) => unreachable!("rooms has entries for tiles"),
+        }
+        Ok(())
     }
 }
 
@@ -92,13 +156,13 @@ impl IsoRenderer for Renderer {
         };
         let compilation = start.elapsed();
 
-        let built = Built::new(gpu, scene, &pipelines.layouts)?;
+        let built = Built::new(gpu, scene, &pipelines)?;
         let report = BuildReport {
             // The order of the balls is the only structure, and belongs to the frame.
             structure: Duration::ZERO,
             pipelines: compilation,
-            upload_bytes: built.bytes,
-            device_bytes: built.bytes,
+            upload_bytes: built.upload_bytes,
+            device_bytes: built.device_bytes,
             facts: Vec::new(),
         };
         self.pipelines = Some(pipelines);
@@ -107,28 +171,13 @@ impl IsoRenderer for Renderer {
     }
 
     fn encode(&mut self, frame: &mut Frame<'_>) -> Result<(), RenderError> {
-        let (Some(pipelines), Some(built)) = (&self.pipelines, &self.built) else {
+        self.record_lists(frame)?;
+        let (Some(pipelines), Some(built), Some(canvas)) =
+            (&self.pipelines, &self.built, &self.canvas)
+        else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
-        let (gpu, targets) = (frame.gpu(), frame.targets());
-        let canvas = match self.canvas.take() {
-            Some(canvas) if canvas.fits(targets, self.rooms) => canvas,
-            _ => Canvas::new(gpu, &pipelines.layouts, targets, self.rooms)?,
-        };
-        let canvas = self.canvas.insert(canvas);
-
-        let camera = frame.view().camera();
-        let order = frame.cpu("sort", || by_effective_distance(&built.supports, camera));
-        gpu.checked(|| {
-            gpu.queue.write_buffer(&built.ball_of_rank, 0, bytemuck::cast_slice(&order));
-        })?;
-        canvas.clear(frame.encoder());
-
-        match (&pipelines.gather, &canvas.tiles) {
-            (GatherPasses::Raster(passes), _) => passes.record(frame, built, canvas),
-            (GatherPasses::Tiles(passes), Some(tiles)) => passes.record(frame, built, tiles),
-            (GatherPasses::Tiles(_), None) => unreachable!("rooms has entries for tiles"),
-        }
+        let targets = frame.targets();
         let (columns, rows) = targets.workgroups();
         for dispatch in 0..=self.resumes {
             let label = if dispatch == 0 { "cast" } else { "resume" };
@@ -142,6 +191,10 @@ impl IsoRenderer for Renderer {
             });
         }
         Ok(())
+    }
+
+    fn frame_bytes(&self) -> u64 {
+        self.canvas.as_ref().map_or(0, Canvas::bytes)
     }
 
     /// Slot 0 is list nodes, 1 the length of a list that is too long, 2 the entries of all tiles, 3
@@ -174,7 +227,7 @@ impl Built {
         self.supports.len() as u32
     }
 
-    fn new(gpu: &Gpu, scene: &Scene, layouts: &Layouts) -> Result<Self, RenderError> {
+    fn new(gpu: &Gpu, scene: &Scene, pipelines: &Pipelines) -> Result<Self, RenderError> {
         let none = wgpu::BufferUsages::empty();
         let core_radii: Vec<f32> = scene
             .balls()
@@ -190,15 +243,27 @@ impl Built {
         let bind_group = gpu.checked(|| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("illes balls"),
-                layout: &layouts.balls,
+                layout: &pipelines.layouts.balls,
                 entries: &[
                     entry(0, ball_of_rank.as_entire_binding()),
                     entry(1, core_radii.as_entire_binding()),
                 ],
             })
         })?;
-        let bytes = buffers.bytes() + core_radii.size() + ball_of_rank.size();
-        let supports = scene.supports().to_vec();
-        Ok(Self { scene: buffers, supports, ball_of_rank, bind_group, bytes })
+        let balls = scene.len() as u32;
+        let radix = pipelines.radix.as_ref();
+        let sort_room = radix.map(|radix| radix.room(gpu, balls, &ball_of_rank)).transpose()?;
+        let upload_bytes = buffers.bytes() + core_radii.size();
+        let device_bytes =
+            upload_bytes + ball_of_rank.size() + sort_room.as_ref().map_or(0, SortRoom::bytes);
+        Ok(Self {
+            scene: buffers,
+            supports: scene.supports().to_vec(),
+            ball_of_rank,
+            sort_room,
+            bind_group,
+            upload_bytes,
+            device_bytes,
+        })
     }
 }

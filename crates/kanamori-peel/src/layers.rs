@@ -7,6 +7,7 @@ use crate::pipelines::{DEPTH_FORMAT, LIST_FORMAT, Layouts, POINT_FORMAT};
 /// Textures of one picture size.
 pub(crate) struct Layers {
     pub(crate) size: (u32, u32),
+    bytes: u64,
     lists: [ListSet; 2],
     points: wgpu::TextureView,
     point_depth: wgpu::TextureView,
@@ -47,6 +48,11 @@ impl Layers {
             })
         };
         let plain = |label, format| texture(label, format, 1).create_view(&Default::default());
+        // Each of the two sets has as many textures as a list has targets.
+        let texels = [(LIST_FORMAT, 2 * targets), (POINT_FORMAT, 1), (DEPTH_FORMAT, 2)];
+        let pixel: u64 =
+            texels.iter().map(|&(format, textures)| texel(format) * u64::from(textures)).sum();
+        let bytes = pixel * u64::from(width) * u64::from(height);
         gpu.checked(|| {
             let points = plain("peeled points", POINT_FORMAT);
             let kernel_depth = plain("kernel spheres", DEPTH_FORMAT);
@@ -77,6 +83,7 @@ impl Layers {
             };
             Self {
                 size: (width, height),
+                bytes,
                 lists: [list_set("lists A"), list_set("lists B")],
                 point_depth: plain("peeled depth", DEPTH_FORMAT),
                 seeing: bind_group(gpu, "kernel depth", &layouts.seeing, &[(0, &kernel_depth)]),
@@ -84,6 +91,11 @@ impl Layers {
                 kernel_depth,
             }
         })
+    }
+
+    /// Bytes on the device.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
     }
 
     /// The depth of the nearest kernel spheres, empty.
@@ -152,4 +164,9 @@ fn depth(
         }),
         stencil_ops: None,
     }
+}
+
+/// Bytes of a texel.
+fn texel(format: wgpu::TextureFormat) -> u64 {
+    format.block_copy_size(None).map_or(0, u64::from)
 }

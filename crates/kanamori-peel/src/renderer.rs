@@ -146,6 +146,10 @@ impl IsoRenderer for Renderer {
         Ok(())
     }
 
+    fn frame_bytes(&self) -> u64 {
+        self.layers.as_ref().map_or(0, Layers::bytes)
+    }
+
     /// `balls in view`, and `balls drawn` of them; `culled`, the share of the former that is not
     /// among the latter (section 5.2); and `registrations`, in which a ball counts once for each of
     /// its tiles (section 5.3).

@@ -1,5 +1,6 @@
 // Sorts balls into the tiles of the picture: counts, adds up, fills in.
 
+#import metaball::illes_fraglist::prefix::{sum_before, THREADS}
 #import metaball::illes_fraglist::tiles
 #import metaball::illes_fraglist::tiles::{entries, marks}
 #import metaball::scene::scene
@@ -7,22 +8,14 @@
 
 @compute @workgroup_size(64)
 fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let rank = id.x + id.y * groups.x * 64u;
-    if rank >= scene.balls {
-        return;
-    }
-    let side = tiles::tile_side();
-    let across = tiles::tiles_across(side);
-    let range = tiles::tiles_of_ball(rank, side);
+    let range = tiles_of_rank(id.x + id.y * groups.x * 64u);
+    let across = tiles::tiles_across(tiles::tile_side());
     for (var row = range.first.y; row < range.end.y; row++) {
         for (var column = range.first.x; column < range.end.x; column++) {
             atomicAdd(&marks[row * across + column], 1u);
         }
     }
 }
-
-const THREADS: u32 = 256u;
-var<workgroup> sums: array<u32, THREADS>;
 
 // Turns counts into places, in one workgroup: each invocation adds up a run of tiles.
 @compute @workgroup_size(256)
@@ -32,12 +25,7 @@ fn place_tiles(@builtin(local_invocation_index) thread: u32) {
     for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
         sum += atomicLoad(&marks[tile]);
     }
-    sums[thread] = sum;
-    workgroupBarrier();
-    var place = 0u;
-    for (var before = 0u; before < thread; before++) {
-        place += sums[before];
-    }
+    var place = sum_before(thread, sum);
     for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
         place += atomicExchange(&marks[tile], place);
     }
@@ -50,12 +38,8 @@ fn place_tiles(@builtin(local_invocation_index) thread: u32) {
 @compute @workgroup_size(64)
 fn fill_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let rank = id.x + id.y * groups.x * 64u;
-    if rank >= scene.balls {
-        return;
-    }
-    let side = tiles::tile_side();
-    let across = tiles::tiles_across(side);
-    let range = tiles::tiles_of_ball(rank, side);
+    let range = tiles_of_rank(rank);
+    let across = tiles::tiles_across(tiles::tile_side());
     for (var row = range.first.y; row < range.end.y; row++) {
         for (var column = range.first.x; column < range.end.x; column++) {
             let place = atomicAdd(&marks[row * across + column], 1u);
@@ -64,4 +48,12 @@ fn fill_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
             }
         }
     }
+}
+
+// No tiles for what is no ball.
+fn tiles_of_rank(rank: u32) -> tiles::TileRange {
+    if rank >= scene.balls {
+        return tiles::TileRange(vec2(0u), vec2(0u));
+    }
+    return tiles::tiles_of_ball(rank, tiles::tile_side());
 }

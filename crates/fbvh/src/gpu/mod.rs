@@ -109,7 +109,7 @@ impl IsoRenderer for Renderer {
             structure,
             pipelines: compilation,
             upload_bytes: scene.bytes() + device_tree.bytes(),
-            device_bytes: scene.bytes() + device_tree.bytes() + waiting.bytes(),
+            device_bytes: scene.bytes() + device_tree.bytes(),
             facts: vec![
                 ("nodes", tree.nodes().len() as f64),
                 ("leaves", tree.leaf_count() as f64),
@@ -148,6 +148,10 @@ impl IsoRenderer for Renderer {
             });
         }
         Ok(())
+    }
+
+    fn frame_bytes(&self) -> u64 {
+        self.built.as_ref().map_or(0, |built| built.waiting.bytes())
     }
 
     fn grow(&mut self, gpu: &Gpu, status: &FrameStatus) -> Result<bool, RenderError> {

@@ -38,6 +38,12 @@ pub trait IsoRenderer {
         Ok(Vec::new())
     }
 
+    /// Bytes held on the device beside those of the build report: what the picture's size and the course
+    /// of frames have asked for so far. None where nothing is kept from frame to frame.
+    fn frame_bytes(&self) -> u64 {
+        0
+    }
+
     /// After a frame that ran out of room, makes more. `Ok(false)`: more room would not help.
     ///
     /// # Errors
@@ -57,7 +63,7 @@ pub struct BuildReport {
     pub pipelines: Duration,
     /// Bytes sent to the device.
     pub upload_bytes: u64,
-    /// Bytes held on the device for this scene.
+    /// Bytes held on the device for this scene; [`IsoRenderer::frame_bytes`] tells of the rest.
     pub device_bytes: u64,
     /// What the structure is like, such as its number of nodes.
     pub facts: Vec<(&'static str, f64)>,
