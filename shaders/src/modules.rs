@@ -95,6 +95,7 @@ pub const MODULES: &[Module] = &[
     import!("illes_fraglist/budget"),
     import!("illes_fraglist/order"),
     import!("illes_fraglist/records"),
+    import!("illes_fraglist/active"),
     import!("illes_fraglist/cubic"),
     import!("illes_fraglist/polynomial"),
     import!("illes_fraglist/bernstein"),

@@ -13,6 +13,7 @@ use crate::options::{Gather, Options};
 use crate::pipelines::{GatherPasses, Pipelines};
 use crate::radix::SortRoom;
 use crate::sort::by_effective_distance;
+use crate::tiles::MOST_ENTRIES;
 
 /// Entries of tiles that a renderer begins with: 1 MB.
 const FIRST_ENTRIES: u32 = 1 << 18;
@@ -203,7 +204,9 @@ impl IsoRenderer for Renderer {
         let [nodes, longest, entries, fullest] = status.needed;
         let refuse = |reason| Err(RenderError::Unsupported { method: self.name, reason });
         if fullest > 0 {
-            return refuse(format!("needed at most 30000 balls over a tile, found {fullest}"));
+            return refuse(format!(
+                "needed at most {MOST_ENTRIES} balls over a tile, found {fullest}"
+            ));
         }
         let has_entries = self.rooms.entries.is_none_or(|room| room >= entries);
         if nodes <= self.rooms.nodes && has_entries {

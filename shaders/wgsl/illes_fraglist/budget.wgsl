@@ -3,12 +3,15 @@
 // dispatch.
 #define_import_path metaball::illes_fraglist::budget
 
-// Iterations after which a ray waits. At most 20,000 follow: one piece's root, a walk along a list of
-// LONGEST_LIST nodes for the normal, and before them, with the first dispatch, one pass of order.wgsl.
-@id(48) override budget: u32 = 32768u;
+// Walks along lists take four nodes an iteration, since iterations are what is scarce. Besides its
+// budget an invocation may walk along a list of LONGEST_LIST nodes, at a quarter of an iteration each:
+// with the first dispatch once to count and twice in a last pass of order.wgsl; later once to recall
+// where it was, once along a stretch, and once for the normal. Either is at most 36,864 iterations, and
+// one piece's root at most 4,000 more.
+const LONGEST_LIST: u32 = 49152u;
 
-// Nodes of a list that an invocation can walk along three times besides its budget.
-const LONGEST_LIST: u32 = 8192u;
+// Iterations after which a ray waits.
+@id(48) override budget: u32 = 16384u;
 
 var<private> spent: u32;
 

@@ -119,15 +119,30 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
 
 // Puts the balls before a place of the list back into the arrays, as far as the ray is not past them.
 fn recall(head: u32, end: u32) {
-    for (var place = head; place != end; place = lists::after(place)) {
-        admit(lists::rank_at(place));
+    var place = head;
+    while place != end {
+        place = recall_one(place, end);
+        place = recall_one(place, end);
+        place = recall_one(place, end);
+        place = recall_one(place, end);
         budget::spend(1u);
     }
+}
+
+fn recall_one(place: u32, end: u32) -> u32 {
+    if place == end {
+        return end;
+    }
+    admit(lists::rank_at(place));
+    return lists::after(place);
 }
 
 // Goes along the ray to its first root or its end.
 fn go_along(place: ptr<function, u32>) -> u32 {
     while *place != lists::END {
+        if !budget::can_go_on() {
+            return SPENT;
+        }
         let rank = lists::rank_at(*place);
         var outcome = pass_up_to(effective_distance(support_of_rank(rank)));
         if outcome == PASSED {
@@ -233,23 +248,37 @@ fn search(end: f32) -> bool {
 fn write(pixel: u32, t: f32) {
     var slope = vec3(0.0);
     blend_start();
-    for (var place = lists::head_of(pixel); place != lists::END; place = lists::after(place)) {
-        let rank = lists::rank_at(place);
-        let support = support_of_rank(rank);
-        if effective_distance(support) > t {
-            break;
-        }
-        let ball = ball_of_rank[rank];
-        let offset = offset_at(view.eye - support.center, direction, t);
-        let v = depth_below_rim(offset, support.radius);
-        slope += gradient(ball, v, offset, support.radius);
-        blend_add(ball, contribution(ball, v));
+    var place = lists::head_of(pixel);
+    while place != lists::END {
+        place = add_ball(place, t, &slope);
+        place = add_ball(place, t, &slope);
+        place = add_ball(place, t, &slope);
+        place = add_ball(place, t, &slope);
     }
     blend_write(pixel);
     // Where the field is flat, as at a lone centre, the surface faces the ray.
     let steepness = length(slope);
     let normal = select(-direction, -slope / steepness, steepness > 0.0);
     hit::write_hit(pixel, t, normal, select(hit::INSIDE, hit::HIT, t > 0.0) + fallback);
+}
+
+// Adds what a ball of the list gives to slope and colour at t. Returns the next place; END behind the
+// last ball that reaches t.
+fn add_ball(place: u32, t: f32, slope: ptr<function, vec3<f32>>) -> u32 {
+    if place == lists::END {
+        return lists::END;
+    }
+    let rank = lists::rank_at(place);
+    let support = support_of_rank(rank);
+    if effective_distance(support) > t {
+        return lists::END;
+    }
+    let ball = ball_of_rank[rank];
+    let offset = offset_at(view.eye - support.center, direction, t);
+    let v = depth_below_rim(offset, support.radius);
+    *slope += gradient(ball, v, offset, support.radius);
+    blend_add(ball, contribution(ball, v));
+    return lists::after(place);
 }
 
 fn write_miss(pixel: u32) {

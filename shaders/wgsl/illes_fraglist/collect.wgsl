@@ -11,8 +11,9 @@
 // What cast.wgsl reads as `lists::core_distance`.
 @group(3) @binding(6) var core_distance: texture_storage_2d<r32float, write>;
 
-// Entries of a tile at most: two walks along them stay below the 65,535 iterations of software Vulkan.
-const MOST_ENTRIES: u32 = 30000u;
+// Entries of a tile at most: two walks along them, four an iteration, stay below the 65,535 iterations
+// of software Vulkan. Twin: MOST_ENTRIES of crates/illes-fraglist/src/tiles.rs.
+const MOST_ENTRIES: u32 = 120000u;
 
 @compute @workgroup_size(8, 8)
 fn collect(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -28,25 +29,51 @@ fn collect(@builtin(global_invocation_id) id: vec3<u32>) {
         start = atomicLoad(&tiles::marks[tile - 1u]);
     }
     let end = min(atomicLoad(&tiles::marks[tile]), arrayLength(&tiles::entries));
-    if end > start + MOST_ENTRIES {
+    if end <= start {
+        // Nothing here, or nothing that there was room for.
+        textureStore(core_distance, id.xy, vec4(NO_LIMIT));
+        return;
+    }
+    if end - start > MOST_ENTRIES {
         report_unfinished();
         report_needed(3u, end - start);
         return;
     }
 
     var core = NO_LIMIT;
-    for (var entry = start; entry < end; entry++) {
-        core = min(core, core_entry(ball_of_rank[tiles::entries[entry]], ray.direction));
+    for (var entry = start; entry < end; entry += 4u) {
+        core = min(core, core_of_entry(entry, ray.direction));
+        // Beyond the last entry the last is looked at again.
+        core = min(core, core_of_entry(min(entry + 1u, end - 1u), ray.direction));
+        core = min(core, core_of_entry(min(entry + 2u, end - 1u), ray.direction));
+        core = min(core, core_of_entry(min(entry + 3u, end - 1u), ray.direction));
     }
     textureStore(core_distance, id.xy, vec4(core));
 
     // The last entries tend to be the farthest, and lists are built from the back.
     let limit = min(core, ray.t_max);
-    for (var entry = end; entry > start; entry--) {
-        let rank = tiles::entries[entry - 1u];
-        let support = support_of_rank(rank);
-        if is_gathered(segment_of(support.center, support.radius, ray.direction), limit) {
-            lists::prepend(pixel, rank);
-        }
+    var left = end - start;
+    while left > 0u {
+        left = gather_last(pixel, start, left, ray.direction, limit);
+        left = gather_last(pixel, start, left, ray.direction, limit);
+        left = gather_last(pixel, start, left, ray.direction, limit);
+        left = gather_last(pixel, start, left, ray.direction, limit);
     }
+}
+
+fn core_of_entry(entry: u32, direction: vec3<f32>) -> f32 {
+    return core_entry(ball_of_rank[tiles::entries[entry]], direction);
+}
+
+// Gathers the last of the entries that are left, if any is. Returns how many are left then.
+fn gather_last(pixel: u32, start: u32, left: u32, direction: vec3<f32>, limit: f32) -> u32 {
+    if left == 0u {
+        return 0u;
+    }
+    let rank = tiles::entries[start + left - 1u];
+    let support = support_of_rank(rank);
+    if is_gathered(segment_of(support.center, support.radius, direction), limit) {
+        lists::prepend(pixel, rank);
+    }
+    return left - 1u;
 }

@@ -53,6 +53,14 @@ fn after(place: u32) -> u32 {
     return pool.nodes[place - 1u].next;
 }
 
+// The next place, also of the end, which is its own.
+fn after_or_end(place: u32) -> u32 {
+    if place == END {
+        return END;
+    }
+    return after(place);
+}
+
 fn link(pixel: u32, place: u32, next: u32) {
     if place == END {
         atomicStore(&heads[pixel], next);

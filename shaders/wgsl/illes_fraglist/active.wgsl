@@ -1,0 +1,52 @@
+// The balls whose chords hold the current piece of the ray.
+#define_import_path metaball::illes_fraglist::active
+
+#import metaball::illes_fraglist::balls::{segment_of, support_of_rank}
+#import metaball::illes_fraglist::budget
+#import metaball::illes_fraglist::records::MOST
+#import metaball::work::count_balls
+
+struct Active {
+    rank: u32,
+    // The chord, along the ray: its midpoint and half its length, scene units.
+    middle: f32,
+    half: f32,
+    radius: f32,
+    // What the piece multiplies the ball's shape by.
+    weight: f32,
+}
+
+// Each active ball's LEAVE is among the records, so there are at most as many.
+var<private> balls: array<Active, MOST>;
+var<private> count: u32;
+
+// A ball as the ray meets it, without its weight.
+fn ball_along(rank: u32, direction: vec3<f32>) -> Active {
+    let support = support_of_rank(rank);
+    let segment = segment_of(support.center, support.radius, direction);
+    return Active(rank, segment.middle, segment.half, support.radius, 0.0);
+}
+
+// v at the chord's midpoint, Q²/R².
+fn depth_of(ball: Active) -> f32 {
+    let ratio = ball.half / ball.radius;
+    return ratio * ratio;
+}
+
+fn enter(ball: Active) {
+    balls[count] = ball;
+    count++;
+    count_balls(1u);
+}
+
+fn leave(rank: u32) {
+    var place = 0u;
+    while place < count && balls[place].rank != rank {
+        place++;
+    }
+    budget::spend(place);
+    if place < count {
+        count--;
+        balls[place] = balls[count];
+    }
+}
