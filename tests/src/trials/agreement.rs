@@ -1,5 +1,8 @@
 //! Every method against the oracle on every scene, and every method against every other.
 
+use harness::judge::promise::promise_of;
+use harness::judge::refusals::{Refusal, refusal_of};
+use harness::judge::{Findings, terms_of};
 use harness::methods::METHODS;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Scene;
@@ -7,9 +10,6 @@ use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
 
 use super::gallery::{picture, room};
 use super::{on_gpu, renderer, scenes};
-use crate::judge::{Findings, Stop, Terms};
-use crate::promise::{Promise, promise_of};
-use crate::refusals::{Refusal, refusal_of};
 
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
@@ -28,18 +28,6 @@ pub(super) fn trials() -> Vec<Trial> {
         }
     }
     trials
-}
-
-/// What a method is held to.
-pub(super) fn terms_of(method: &str) -> Terms {
-    let promise = promise_of(method);
-    let stop = match promise {
-        // Half the default clipping threshold of 1e-3, times an interval of at most two radii.
-        Promise::Peeling { .. } => Stop::Distance(1e-3),
-        // The default tolerance of the secant search.
-        _ => Stop::Residual(1e-4),
-    };
-    Terms { promise, stop }
 }
 
 /// Fails with the first few violations.

@@ -1,13 +1,14 @@
 //! Wrong pictures that the comparisons must reject: a comparison nobody has seen fail is no test.
 
+use harness::judge::promise::promise_of;
+use harness::judge::terms_of;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::{Hit, Scene};
 
-use super::agreement::{pass, terms_of};
+use super::agreement::pass;
 use super::gallery::{picture, room};
 use super::{SIZE, draw, on_gpu, renderer};
-use crate::promise::promise_of;
 
 /// The method whose picture is spoilt, and a scene with enough in it to spoil.
 const METHOD: &str = "fbvh";

@@ -2,14 +2,14 @@
 //! and the picture is right.
 
 use glam::Vec3;
+use harness::judge::{Exam, terms_of};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 use metaball_core::{Camera, Kernel, Metaball, Scene, View};
 
-use super::agreement::{pass, terms_of};
+use super::agreement::pass;
 use super::{draw, on_gpu, renderer};
-use crate::judge::Exam;
 
 pub(super) fn trials() -> Vec<Trial> {
     harness::methods::METHODS

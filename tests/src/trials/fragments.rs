@@ -1,15 +1,15 @@
 //! Fragment lists: that the terms for a cubic in the field's place still catch what is wrong, and what
 //! becomes of more separators than an array holds.
 
+use harness::judge::{Exam, terms_of};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 
-use super::agreement::{pass, terms_of};
+use super::agreement::pass;
 use super::canaries::{Spoil, rejects_spoilt};
 use super::gallery::room;
 use super::{SIZE, draw, on_gpu, renderer, view_of};
-use crate::judge::Exam;
 
 const METHOD: &str = "illes";
 const SCENE: &str = "random-200";

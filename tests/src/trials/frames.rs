@@ -3,15 +3,15 @@
 
 use std::sync::Arc;
 
+use harness::judge::{Exam, terms_of};
 use harness::methods::METHODS;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Verdict;
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 
-use super::agreement::{pass, terms_of};
+use super::agreement::pass;
 use super::{draw, load, on_gpu, renderer, view_of};
-use crate::judge::Exam;
 
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials = vec![on_gpu("frames::pixels_to_rays".to_owned(), pixels_to_rays)];

@@ -5,13 +5,13 @@ use std::hash::Hash;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use bench_scenes::BenchScene;
+use harness::judge::Exam;
 use libtest_mimic::Failed;
 use metaball_core::gpu::{Frame, Gpu, Targets};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, View};
 
 use super::{draw, load, renderer, view_of};
-use crate::judge::Exam;
 
 /// A scene in its view, with the truth about every ray.
 pub(super) struct Room {

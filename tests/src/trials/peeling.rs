@@ -1,14 +1,14 @@
 //! The three special cases of Kanamori et al. 2008, section 7, in both variants.
 
 use bench_scenes::Case;
+use harness::judge::{Exam, terms_of};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 use metaball_core::{Verdict, View};
 
-use super::agreement::{pass, terms_of};
+use super::agreement::pass;
 use super::{draw, on_gpu, renderer, view_of};
-use crate::judge::Exam;
 
 /// What must become of a case, beside that no promise is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

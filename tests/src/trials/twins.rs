@@ -1,14 +1,15 @@
 //! The tracers on the CPU and in WGSL are twins: along the same rays they find the same.
 
 use fbvh::{TraceOptions, Tracer, Tree};
+use harness::judge::promise::promise_of;
+use harness::judge::terms_of;
 use harness::methods::{METHODS, tree_options};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 
-use super::agreement::{pass, terms_of};
+use super::agreement::pass;
 use super::gallery::{picture, room};
 use super::{on_gpu, scenes};
-use crate::promise::promise_of;
 
 pub(super) fn trials() -> Vec<Trial> {
     let traced = METHODS.iter().filter(|method| tree_options(method.name).is_some());

@@ -7,8 +7,8 @@ use illes_fraglist::{MOST_ROOM, Piece};
 use metaball_core::reference::Truth;
 use metaball_core::{Metaball, Ray, Scene};
 
-use crate::points::Points;
-use crate::stand_in::{StandIn, may_overflow};
+use super::points::Points;
+use super::stand_in::{StandIn, may_overflow};
 
 /// When a method must be right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,11 +1,18 @@
-//! Holds a picture against the truth, pixel by pixel, and says what is wrong with it.
+//! Holds a picture against the truth, ray by ray, to exactly what the method's paper promises.
+//!
+//! [`score`](crate::score) measures how far off a method is; here it is decided whether it may be.
 
-use harness::score::{Judgement, WRONG_FRONT};
+pub mod points;
+pub mod promise;
+pub mod refusals;
+pub mod stand_in;
+
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Hit, Ray, Scene, Verdict};
 
-use crate::promise::Promise;
-use crate::stand_in::StandIn;
+use self::promise::{Promise, promise_of};
+use self::stand_in::StandIn;
+use crate::score::{Judgement, WRONG_FRONT};
 
 /// What a method is held to.
 #[derive(Debug, Clone, Copy)]
@@ -23,6 +30,40 @@ pub enum Stop {
     Residual(f64),
     /// |t − t*| over the smallest support radius at the hit.
     Distance(f64),
+}
+
+/// What a method is held to, by name.
+///
+/// # Panics
+/// When nobody has written down what the method promises.
+pub fn terms_of(method: &str) -> Terms {
+    Terms::of(promise_of(method))
+}
+
+impl Terms {
+    /// A promise, with the stop of the root finders of its kind.
+    pub fn of(promise: Promise) -> Self {
+        let stop = match promise {
+            // Half the default clipping threshold of 1e-3, times an interval of at most two radii.
+            Promise::Peeling { .. } => Stop::Distance(1e-3),
+            // The default tolerance of the secant search.
+            _ => Stop::Residual(1e-4),
+        };
+        Self { promise, stop }
+    }
+}
+
+/// What became of a ray about which nothing is wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ruling {
+    /// Too close to call for the oracle.
+    Ambiguous,
+    /// Late, lost or replaced, where the method promises nothing.
+    Excused,
+    /// Nothing is there, and nothing was found.
+    Empty,
+    /// A hit, right in distance and normal.
+    Measured,
 }
 
 /// What was found; a picture is right when there are no violations.
@@ -71,8 +112,12 @@ impl<'a> Exam<'a> {
             return findings;
         }
         for (pixel, hit) in hits.iter().enumerate() {
-            if let Err(violation) = self.judge_pixel(pixel, hit, terms, &mut findings) {
-                findings.violations.push(format!("pixel {pixel}: {violation}"));
+            match self.rule(pixel, hit, terms) {
+                Ok(Ruling::Ambiguous) => findings.ambiguous += 1,
+                Ok(Ruling::Excused) => findings.excused += 1,
+                Ok(Ruling::Measured) => findings.measured += 1,
+                Ok(Ruling::Empty) => {}
+                Err(violation) => findings.violations.push(format!("pixel {pixel}: {violation}")),
             }
         }
         findings
@@ -121,21 +166,17 @@ impl<'a> Exam<'a> {
         findings
     }
 
-    fn judge_pixel(
-        &self,
-        pixel: usize,
-        hit: &Hit,
-        terms: &Terms,
-        findings: &mut Findings,
-    ) -> Result<(), String> {
-        let (ray, truth) = (&self.rays[pixel], &self.truths[pixel]);
+    /// Judges what was found along one of the rays.
+    ///
+    /// # Errors
+    /// What must not be, in words.
+    pub fn rule(&self, ray: usize, hit: &Hit, terms: &Terms) -> Result<Ruling, String> {
+        let (ray, truth) = (&self.rays[ray], &self.truths[ray]);
         if truth.is_ambiguous() {
-            findings.ambiguous += 1;
-            return Ok(());
+            return Ok(Ruling::Ambiguous);
         }
         if hit.fallback && terms.promise.allows_fallback(self.scene, ray, truth) {
-            findings.excused += 1;
-            return Ok(());
+            return Ok(Ruling::Excused);
         }
         if hit.verdict == Verdict::Undecided || hit.fallback {
             return Err(format!(
@@ -143,57 +184,45 @@ impl<'a> Exam<'a> {
             ));
         }
         if let Some(field) = terms.promise.stand_in(self.scene, ray) {
-            return self.judge_stand_in(ray, (truth, hit), terms, &field, findings);
+            return self.rule_on_stand_in(ray, (truth, hit), terms, &field);
         }
-        if Judgement::new(truth, hit).is_wrong() {
-            // A method that promises nothing for a ray may be late or miss; it may never see a
-            // surface before the first, or where there is none.
-            let is_late = truth.verdict != Verdict::Miss && f64::from(hit.t) > truth.t;
-            if is_late && !terms.promise.holds(self.scene, ray, truth) {
-                findings.excused += 1;
-                return Ok(());
-            }
-            return Err(format!("needed {truth:?}, found {hit:?}"));
+        let found = if Judgement::new(truth, hit).is_wrong() {
+            Err(format!("needed {truth:?}, found {hit:?}"))
+        } else if hit.is_hit() {
+            self.measure(ray, truth, hit, terms).map(|()| Ruling::Measured)
+        } else {
+            Ok(Ruling::Empty)
+        };
+        // A method that promises nothing for a ray may be late or miss; it may never see a surface
+        // before the first, or where there is none.
+        let is_late = truth.verdict != Verdict::Miss && f64::from(hit.t) > truth.t;
+        if found.is_err() && is_late && !terms.promise.holds(self.scene, ray, truth) {
+            return Ok(Ruling::Excused);
         }
-        if !hit.is_hit() {
-            return Ok(());
-        }
-        if let Err(violation) = self.measure(ray, truth, hit, terms) {
-            let is_late = f64::from(hit.t) > truth.t;
-            if is_late && !terms.promise.holds(self.scene, ray, truth) {
-                findings.excused += 1;
-                return Ok(());
-            }
-            return Err(violation);
-        }
-        findings.measured += 1;
-        Ok(())
+        found
     }
 
     /// Judges a root of a field that is not the scene's.
-    fn judge_stand_in(
+    fn rule_on_stand_in(
         &self,
         ray: &Ray,
         (truth, hit): (&Truth, &Hit),
         terms: &Terms,
         stand_in: &StandIn,
-        findings: &mut Findings,
-    ) -> Result<(), String> {
+    ) -> Result<Ruling, String> {
+        let is_there = truth.verdict != Verdict::Miss;
         let t = f64::from(hit.t);
-        let rounding = Rounding::at(self.scene, ray, if hit.is_hit() { t } else { 0.0 });
         if stand_in.keeps(truth, self.scene.threshold()) {
             // Two roundings of t, and one of the point where the truth leaves the solid.
             let is_later = hit.is_hit() && t > truth.leaves * (1.0 + 4.0 * f64::from(f32::EPSILON));
-            if hit.is_hit() != (truth.verdict != Verdict::Miss) || is_later {
+            if hit.is_hit() != is_there || is_later {
                 return Err(format!("needed {truth:?}, found {hit:?}"));
             }
-        } else if !hit.is_hit() {
-            findings.excused += usize::from(truth.verdict != Verdict::Miss);
         }
         if !hit.is_hit() {
-            return Ok(());
+            return Ok(if is_there { Ruling::Excused } else { Ruling::Empty });
         }
-        findings.measured += 1;
+        let rounding = Rounding::at(self.scene, ray, t);
         let point = ray.origin.as_dvec3() + t * ray.direction.as_dvec3();
         let threshold = f64::from(self.scene.threshold());
         let residual = self.oracle.field(point) - threshold;
@@ -208,7 +237,8 @@ impl<'a> Exam<'a> {
                 "F - T = {residual:.3e}, needed from {least:.3e} to {greatest:.3e}, found {hit:?}"
             ));
         }
-        self.check_normal(ray, truth, hit, &rounding)
+        self.check_normal(ray, truth, hit, &rounding)?;
+        Ok(Ruling::Measured)
     }
 
     /// Holds a hit to the field at its own point, which is well conditioned where distance is not.
