@@ -3,26 +3,78 @@
 //! Unless a case says otherwise, balls have radius 1 and strength 1, the kernel is the quartic, and
 //! T = 0.25, so that a ball alone shows at the core radius 1/√2.
 
-use glam::{DVec3, Vec3};
-use metaball_core::{Camera, Kernel, Metaball, Scene};
+mod crowds;
+mod extremes;
+mod eyes;
+mod pictures;
+mod shapes;
+
+use metaball_core::View;
 
 use crate::error::LoadError;
 use crate::random::Random;
-use crate::small::{Shot, THRESHOLD, looking, quartic};
+use crate::small::Shot;
 use crate::{BenchScene, Kind};
 
-/// A scene with a parameter.
+/// A family of scenes with a parameter.
 #[derive(Debug)]
 pub struct Case {
     /// What to ask for.
     pub name: &'static str,
+    /// What it is about.
+    pub subject: Subject,
     /// One sentence on what is hard about it.
     pub about: &'static str,
     /// What the number means, and its unit.
     pub parameter: &'static str,
     /// The numbers to try, from easy to hard.
     pub values: &'static [f64],
+    /// Those of them that a quick look tries.
+    pub quick: &'static [f64],
+    /// Pixels across and down at a value.
+    size: fn(f64) -> (u32, u32),
+    /// What is drawn.
+    pub drawing: Drawing,
     make: fn(f64) -> Result<Shot, LoadError>,
+}
+
+/// What a case is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Subject {
+    /// Many balls over one point.
+    Crowds,
+    /// Distances, sizes, strengths and thresholds.
+    Extremes,
+    /// What is thin, near, or only just touched.
+    Shapes,
+    /// Where the eye is.
+    Eyes,
+    /// Lenses, image sizes, and drawing again.
+    Pictures,
+}
+
+/// What is drawn of a case's scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Drawing {
+    /// One frame.
+    Once,
+    /// The same frame twice, which should be the same to the last bit.
+    Twice,
+    /// A frame, and another of the [shuffled](BenchScene::shuffled) scene.
+    Shuffled,
+}
+
+impl Subject {
+    /// As a heading says it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Crowds => "Crowds over one point",
+            Self::Extremes => "Distances, sizes and thresholds",
+            Self::Shapes => "Thin, near and tangent",
+            Self::Eyes => "The eye",
+            Self::Pictures => "Lenses and pictures",
+        }
+    }
 }
 
 impl Case {
@@ -41,292 +93,390 @@ impl Case {
             kind: Kind::General,
         })
     }
+
+    /// The scene and its view at a value: an odd number of pixels across and down wherever the
+    /// number is not what the case is about, so that one ray is the view axis.
+    ///
+    /// # Errors
+    /// As [`Case::scene`].
+    pub fn view(&self, value: f64) -> Result<(BenchScene, View), LoadError> {
+        let scene = self.scene(value)?;
+        let (width, height) = (self.size)(value);
+        let view = View::new(scene.camera, width, height)?;
+        Ok((scene, view))
+    }
 }
 
-/// All cases.
+impl BenchScene {
+    /// The same balls in another order, without their colours.
+    ///
+    /// # Errors
+    /// None that the scene itself would not have had.
+    pub fn shuffled(&self) -> Result<Self, LoadError> {
+        let mut balls: Vec<_> = self.scene.balls().collect();
+        let mut random = Random::new(8);
+        for last in (1..balls.len()).rev() {
+            balls.swap(last, (random.unit() * (last + 1) as f64) as usize);
+        }
+        let scene = metaball_core::Scene::new(balls, self.scene.kernel(), self.scene.threshold())?;
+        Ok(Self { scene, ..self.clone() })
+    }
+}
+
+/// All cases, by subject.
 pub fn cases() -> &'static [Case] {
     CASES
 }
 
-/// Numbers of balls, among them Kanamori's list size K = 14 with its neighbours and its tenfold.
-const COUNTS: &[f64] = &[1.0, 2.0, 13.0, 14.0, 15.0, 32.0, 33.0, 64.0, 65.0, 139.0, 140.0];
+/// Pixels where nothing else is asked for.
+const SIZE: fn(f64) -> (u32, u32) = |_| (33, 25);
 
-/// COUNTS and crowds that only some variants claim.
+/// Fewer where there are many balls on every ray.
+const CROWD_SIZE: fn(f64) -> (u32, u32) = |count| if count < 500.0 { (33, 25) } else { (9, 7) };
+
+/// Numbers of balls: Kanamori's list size K = 14 with its neighbours and its tenfold, and the balls
+/// that fill the longest list of eight targets (29) and the array of Illés and Szécsi (32).
+const COUNTS: &[f64] = &[1.0, 2.0, 13.0, 14.0, 15.0, 29.0, 30.0, 32.0, 33.0, 65.0, 140.0, 1000.0];
+
+/// COUNTS and thousands.
 const CROWDS: &[f64] =
-    &[1.0, 2.0, 13.0, 14.0, 15.0, 32.0, 33.0, 64.0, 65.0, 139.0, 140.0, 141.0, 1000.0, 4096.0];
+    &[1.0, 2.0, 13.0, 14.0, 15.0, 29.0, 30.0, 32.0, 33.0, 65.0, 140.0, 1000.0, 4096.0];
 
 /// Small numbers on both sides of nothing.
 const AROUND_ZERO: &[f64] = &[0.1, -0.1, 1e-3, -1e-3, 1e-5, -1e-5, 1e-6, -1e-6, 0.0];
 
 const CASES: &[Case] = &[
     Case {
+        name: "few",
+        subject: Subject::Crowds,
+        about: "Almost no balls.",
+        parameter: "number of balls",
+        values: &[3.0, 2.0, 1.0, 0.0],
+        quick: &[1.0, 0.0],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: crowds::few,
+    },
+    Case {
+        name: "coincident",
+        subject: Subject::Crowds,
+        about: "So many equal balls at one place: lists and arrays overflow.",
+        parameter: "number of balls",
+        values: CROWDS,
+        quick: &[2.0, 14.0, 33.0],
+        size: CROWD_SIZE,
+        drawing: Drawing::Once,
+        make: crowds::coincident,
+    },
+    Case {
+        name: "crowd",
+        subject: Subject::Crowds,
+        about: "So many balls whose centres lie within a tenth of a radius.",
+        parameter: "number of balls",
+        values: CROWDS,
+        quick: &[14.0, 15.0, 33.0, 140.0],
+        size: CROWD_SIZE,
+        drawing: Drawing::Once,
+        make: crowds::crowd,
+    },
+    Case {
+        name: "concentric",
+        subject: Subject::Crowds,
+        about: "Balls of different radii, from 1 to 2, with one centre.",
+        parameter: "number of balls",
+        values: COUNTS,
+        quick: &[14.0, 15.0],
+        size: CROWD_SIZE,
+        drawing: Drawing::Once,
+        make: crowds::concentric,
+    },
+    Case {
+        name: "common-entry",
+        subject: Subject::Crowds,
+        about: "Balls of different radii whose supports the view axis enters at one point (Kanamori, figure 9a).",
+        parameter: "number of balls",
+        values: COUNTS,
+        quick: &[2.0, 14.0],
+        size: CROWD_SIZE,
+        drawing: Drawing::Once,
+        make: crowds::common_entry,
+    },
+    Case {
+        name: "veiled",
+        subject: Subject::Crowds,
+        about: "So many weak balls in a row, below T, before the surface (Kanamori, figure 9c).",
+        parameter: "number of balls",
+        values: &[0.0, 1.0, 13.0, 14.0, 15.0, 65.0, 140.0, 1000.0],
+        quick: &[14.0, 65.0],
+        size: CROWD_SIZE,
+        drawing: Drawing::Once,
+        make: crowds::veiled,
+    },
+    Case {
+        name: "distance",
+        subject: Subject::Extremes,
+        about: "A pair of balls seen from afar through a lens that keeps their size.",
+        parameter: "distance from the eye, radii",
+        values: &[10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5, 1e6],
+        quick: &[10.0, 1e4],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::distance,
+    },
+    Case {
+        name: "offset",
+        subject: Subject::Extremes,
+        about: "A pair of balls and the eye, moved away from the origin together.",
+        parameter: "offset on every axis, radii",
+        values: &[0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6],
+        quick: &[0.0, 1e4],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::offset,
+    },
+    Case {
+        name: "scale",
+        subject: Subject::Extremes,
+        about: "A pair of balls and the eye, all made larger or smaller.",
+        parameter: "scale, radii",
+        values: &[1.0, 1e-2, 1e2, 1e-4, 1e4, 1e-6, 1e6, 1e-9, 1e9, 1e-12, 1e12],
+        quick: &[1e-6, 1e6],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::scale,
+    },
+    Case {
+        name: "radius-ratio",
+        subject: Subject::Extremes,
+        about: "A small ball that sits on a large one, seen from near.",
+        parameter: "large radius over small radius",
+        values: &[1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6],
+        quick: &[10.0, 1e3],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::radius_ratio,
+    },
+    Case {
+        name: "background",
+        subject: Subject::Extremes,
+        about: "One weak ball larger than the scene and the eye's distance, around twenty balls.",
+        parameter: "radius of the large ball",
+        values: &[10.0, 100.0, 1e3, 1e4, 1e5, 1e6],
+        quick: &[100.0, 1e4],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::background,
+    },
+    Case {
+        name: "strength",
+        subject: Subject::Extremes,
+        about: "A strong ball beside one of strength 1.",
+        parameter: "strength of the strong ball",
+        values: &[1.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e8],
+        quick: &[10.0, 1e4],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::strength,
+    },
+    Case {
+        name: "exponent",
+        subject: Subject::Extremes,
+        about: "A pair of balls under power kernels of growing degree.",
+        parameter: "exponent of the kernel",
+        values: &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
+        quick: &[3.0, 4.0],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::exponent,
+    },
+    Case {
+        name: "threshold-near-zero",
+        subject: Subject::Extremes,
+        about: "The surface nears the rims of the supports.",
+        parameter: "threshold",
+        values: &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-12],
+        quick: &[1e-2, 1e-5],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::threshold_near_zero,
+    },
+    Case {
+        name: "threshold-near-maximum",
+        subject: Subject::Extremes,
+        about: "The surface shrinks to a speck at the centre; none is left at 0 and below.",
+        parameter: "the field's maximum minus the threshold",
+        values: &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0.0, -1e-3, -1.0],
+        quick: &[1e-2, -1e-3],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: extremes::threshold_near_maximum,
+    },
+    Case {
         name: "grazing",
-        about: "The view axis passes a ball at its silhouette; inside it for positive values.",
-        parameter: "depth of the axis below tangency, radii",
-        values: &[0.1, -0.1, 1e-2, -1e-2, 1e-3, -1e-3, 1e-4, -1e-4, 1e-5, -1e-5, 1e-6, -1e-6],
-        make: grazing,
+        subject: Subject::Shapes,
+        about: "The silhouette of a ball through the middle of the picture, nearer and nearer.",
+        parameter: "half the height of the picture, radii",
+        values: &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6],
+        quick: &[1e-2, 1e-4],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: shapes::grazing,
+    },
+    Case {
+        name: "neck",
+        subject: Subject::Shapes,
+        about: "Two balls joined by a neck for positive values, apart for negative ones.",
+        parameter: "the field in the middle over T, minus 1",
+        values: AROUND_ZERO,
+        quick: &[1e-3, -1e-3],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: shapes::neck,
+    },
+    Case {
+        name: "sheet",
+        subject: Subject::Shapes,
+        about: "Five by five balls in a plane: a sheet for positive values, a net for negative ones.",
+        parameter: "the field in the middle of four balls over T, minus 1",
+        values: AROUND_ZERO,
+        quick: &[1e-3, -1e-3],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: shapes::sheet,
     },
     Case {
         name: "two-levels",
+        subject: Subject::Shapes,
         about: "Two balls over several thresholds: one surface, a neck, two, none (Illés and Szécsi, \
                 figure 2).",
         parameter: "threshold",
         values: &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.1],
-        make: |value| {
-            let scene = pair(0.5)?.with_kernel(Kernel::Wyvill).with_threshold(value as f32)?;
-            Ok((scene, looking(Vec3::new(0.0, 0.6, 5.0), Vec3::ZERO)?))
-        },
+        quick: &[0.5, 1.1],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: shapes::two_levels,
     },
     Case {
         name: "effective-radii",
+        subject: Subject::Shapes,
         about: "A lattice of balls whose radii are swept, from apart to one body (Illés and Szécsi, \
                 figure 3).",
         parameter: "radius, spacings of the lattice",
         values: &[0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0],
-        make: |value| {
-            let sites = (0..75).map(|site| {
-                Vec3::new((site % 5 - 2) as f32, (site / 25 - 1) as f32, (site / 5 % 5 - 2) as f32)
-            });
-            let scene = quartic(sites.map(|site| Metaball::new(site, value as f32)))?;
-            Ok((scene.with_kernel(Kernel::Wyvill), looking(Vec3::new(6.0, 7.0, 12.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "coincident",
-        about: "So many equal balls at one place: lists and arrays overflow.",
-        parameter: "number of balls",
-        values: CROWDS,
-        make: |value| {
-            let balls = vec![Metaball::new(Vec3::ZERO, 1.0); number(value)];
-            Ok((quartic(balls)?, looking(Vec3::new(0.0, 0.0, 4.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "crowd",
-        about: "So many balls whose centres lie within a tenth of a radius.",
-        parameter: "number of balls",
-        values: CROWDS,
-        make: |value| {
-            let mut random = Random::new(1);
-            let balls = (0..number(value))
-                .map(|_| Metaball::new(0.1 * random.in_ball().as_vec3(), 1.0))
-                .collect::<Vec<_>>();
-            Ok((quartic(balls)?, looking(Vec3::new(0.0, 0.0, 4.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "concentric",
-        about: "Balls of different radii, from 1 to 2, with one centre.",
-        parameter: "number of balls",
-        values: COUNTS,
-        make: |value| {
-            let balls = radii(value).map(|radius| Metaball::new(Vec3::ZERO, radius));
-            Ok((quartic(balls)?, looking(Vec3::new(0.0, 0.0, 7.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "common-entry",
-        about: "Balls of different radii whose supports the view axis enters at one point \
-                (Kanamori, figure 9a).",
-        parameter: "number of balls",
-        values: COUNTS,
-        make: |value| {
-            let balls = radii(value).map(|radius| Metaball::new(Vec3::NEG_Z * radius, radius));
-            Ok((quartic(balls)?, looking(Vec3::new(0.0, 0.0, 6.0), Vec3::NEG_Z)?))
-        },
-    },
-    Case {
-        name: "veiled",
-        about: "So many weak balls in a row, below T, before the surface (Kanamori, figure 9c).",
-        parameter: "number of balls",
-        values: &[0.0, 1.0, 13.0, 14.0, 15.0, 65.0, 140.0, 1000.0],
-        make: |value| {
-            // Supports overlap in pairs: the field before the last ball stays at 0.14 or below.
-            let last = number(value) as f32;
-            let veil = (0..number(value)).map(|index| Metaball {
-                center: Vec3::new(0.0, 0.0, last - index as f32 + 0.5),
-                radius: 0.7,
-                strength: 0.1,
-            });
-            let balls = veil.chain([Metaball::new(Vec3::NEG_Z, 1.0)]);
-            // A lens that keeps the last ball's size.
-            let (eye, distance) = (Vec3::Z * (last + 3.0), last + 4.0);
-            let fov = 2.0 * (1.4 / distance).atan().to_degrees();
-            Ok((quartic(balls)?, Camera::look_at(eye, Vec3::NEG_Z, Vec3::Y, fov)?))
-        },
-    },
-    Case {
-        name: "distance",
-        about: "A pair of balls seen from afar through a lens that keeps their size.",
-        parameter: "distance from the eye, radii",
-        values: &[5.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5, 1e6],
-        make: |value| {
-            let fov = 2.0 * (1.6 / value).atan().to_degrees();
-            let eye = Vec3::new(0.0, 0.0, value as f32);
-            Ok((pair(0.5)?, Camera::look_at(eye, Vec3::ZERO, Vec3::Y, fov as f32)?))
-        },
-    },
-    Case {
-        name: "offset",
-        about: "A pair of balls and the eye, moved away from the origin together.",
-        parameter: "offset on every axis, radii",
-        values: &[0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6],
-        make: |value| {
-            let offset = Vec3::splat(value as f32);
-            let balls = [-0.5, 0.5].map(|x| Metaball::new(offset + Vec3::X * x, 1.0));
-            Ok((quartic(balls)?, looking(offset + Vec3::new(0.0, 0.0, 5.0), offset)?))
-        },
-    },
-    Case {
-        name: "scale",
-        about: "A pair of balls and the eye, all made larger or smaller.",
-        parameter: "scale, radii",
-        values: &[1.0, 1e-2, 1e2, 1e-4, 1e4, 1e-6, 1e6, 1e7, 1e-12, 1e12],
-        make: |value| {
-            let scale = value as f32;
-            let balls = [-0.5, 0.5].map(|x| Metaball::new(Vec3::X * (x * scale), scale));
-            Ok((quartic(balls)?, looking(Vec3::Z * (5.0 * scale), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "radius-ratio",
-        about: "A small ball that sits on a large one, seen from near.",
-        parameter: "large radius over small radius",
-        values: &[1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8],
-        make: |value| {
-            let small = value.recip() as f32;
-            let surface = std::f32::consts::FRAC_1_SQRT_2;
-            let top = Vec3::Z * (surface + 0.5 * small);
-            let balls = [Metaball::new(Vec3::ZERO, 1.0), Metaball::new(top, small)];
-            let eye = top + small * Vec3::new(1.0, 1.5, 4.0);
-            Ok((quartic(balls)?, looking(eye, top)?))
-        },
-    },
-    Case {
-        name: "threshold-near-zero",
-        about: "The surface nears the rims of the supports.",
-        parameter: "threshold",
-        values: &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-12],
-        make: |value| {
-            let scene = pair(0.8)?.with_threshold(value as f32)?;
-            Ok((scene, looking(Vec3::new(0.0, 0.0, 6.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "threshold-near-maximum",
-        about: "The surface shrinks to a speck at the centre; none is left at 0 and below.",
-        parameter: "the field's maximum minus the threshold",
-        values: &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0.0, -1e-3, -1.0],
-        make: |value| {
-            let scene = quartic([Metaball::new(Vec3::ZERO, 1.0)])?;
-            let scene = scene.with_threshold((1.0 - value) as f32)?;
-            // The quartic is 1 − 2r²: the speck fills half the picture's height while it is there.
-            let speck = (0.5 * value.max(1e-6)).sqrt();
-            let fov = 2.0 * (2.0 * speck / 3.0).atan().to_degrees();
-            let eye = Vec3::new(0.0, 0.0, 3.0);
-            Ok((scene, Camera::look_at(eye, Vec3::ZERO, Vec3::Y, fov as f32)?))
-        },
-    },
-    Case {
-        name: "neck",
-        about: "Two balls joined by a neck for positive values, apart for negative ones.",
-        parameter: "the field in the middle over T, minus 1",
-        values: AROUND_ZERO,
-        make: |value| {
-            // Each ball gives half of the field in the middle.
-            let each = 0.5 * f64::from(THRESHOLD) * (1.0 + value);
-            let ratio = Kernel::QUARTIC.ratio_at(each).unwrap_or(1.0);
-            Ok((pair(ratio)?, looking(Vec3::new(0.0, 0.0, 2.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "sheet",
-        about: "Five by five balls in a plane: a sheet for positive values, a net for negative ones.",
-        parameter: "the field in the middle of four balls over T, minus 1",
-        values: AROUND_ZERO,
-        make: sheet,
+        quick: &[1.25],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: shapes::effective_radii,
     },
     Case {
         name: "touching",
+        subject: Subject::Shapes,
         about: "Two balls whose supports touch or nearly so; they overlap for negative values.",
         parameter: "gap between the supports, radii",
         values: AROUND_ZERO,
-        make: |value| {
-            Ok((pair(1.0 + 0.5 * value)?, looking(Vec3::new(0.0, 0.0, 6.0), Vec3::ZERO)?))
-        },
+        quick: &[0.1, 0.0],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: shapes::touching,
     },
     Case {
         name: "eye-at-support",
+        subject: Subject::Eyes,
         about: "The eye at the rim of a support, inside it for negative values.",
         parameter: "distance of the eye from the rim, radii",
         values: AROUND_ZERO,
-        make: |value| eye_at(1.0 + value),
+        quick: &[-1e-3, 0.0],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: eyes::at_support,
     },
     Case {
         name: "eye-at-surface",
+        subject: Subject::Eyes,
         about: "The eye at the surface, inside it for negative values.",
         parameter: "distance of the eye from the surface, radii",
         values: AROUND_ZERO,
-        make: |value| eye_at(std::f64::consts::FRAC_1_SQRT_2 + value),
+        quick: &[1e-3, -1e-3],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: eyes::at_surface,
     },
     Case {
         name: "behind-the-eye",
+        subject: Subject::Eyes,
         about: "A weak ball behind the image plane, whose support reaches before it up to 1.",
         parameter: "distance of its centre behind the eye, radii",
         values: &[0.01, 0.1, 0.5, 0.9, 0.99, 0.999, 1.0, 1.001, 1.1, 2.0, 10.0],
-        make: |value| {
-            let behind = Metaball { center: Vec3::Z * value as f32, radius: 1.0, strength: 0.2 };
-            let balls = [behind, Metaball::new(Vec3::NEG_Z * 1.5, 1.0)];
-            Ok((quartic(balls)?, looking(Vec3::ZERO, Vec3::NEG_Z)?))
-        },
+        quick: &[0.5, 1.0],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: eyes::behind,
     },
     Case {
-        name: "background",
-        about: "One weak ball larger than the scene and the eye's distance, around twenty balls.",
-        parameter: "radius of the large ball",
-        values: &[10.0, 100.0, 1e3, 1e4, 1e5, 1e6],
-        make: |value| {
-            let large = Metaball { center: Vec3::ZERO, radius: value as f32, strength: 0.2 };
-            let mut random = Random::new(6);
-            let balls = (0..20).map(|_| Metaball::new(2.0 * random.in_ball().as_vec3(), 1.0));
-            let scene = quartic([large].into_iter().chain(balls))?;
-            Ok((scene, looking(Vec3::new(0.0, 2.0, 8.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "strength",
-        about: "A strong ball beside one of strength 1.",
-        parameter: "strength of the strong ball",
-        values: &[1.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e8],
-        make: |value| {
-            let strong =
-                Metaball { center: Vec3::NEG_X * 0.8, radius: 1.0, strength: value as f32 };
-            let scene = quartic([strong, Metaball::new(Vec3::X * 0.8, 1.0)])?;
-            Ok((scene, looking(Vec3::new(0.0, 0.0, 6.0), Vec3::ZERO)?))
-        },
-    },
-    Case {
-        name: "field-of-view",
-        about: "A wide or a narrow lens before twenty balls.",
+        name: "wide-lens",
+        subject: Subject::Pictures,
+        about: "A wide lens before twenty balls.",
         parameter: "vertical field of view, degrees",
-        values: &[38.0, 90.0, 150.0, 170.0, 179.0, 10.0, 1.0, 0.1, 0.01],
-        make: |value| {
-            let mut random = Random::new(7);
-            let balls = (0..20).map(|_| Metaball::new(2.0 * random.in_ball().as_vec3(), 1.0));
-            let eye = Vec3::new(0.3, 0.2, 6.0);
-            let camera = Camera::look_at(eye, Vec3::ZERO, Vec3::Y, value as f32)?;
-            Ok((quartic(balls.collect::<Vec<_>>())?, camera))
-        },
+        values: &[38.0, 90.0, 120.0, 150.0, 170.0, 179.0, 179.9],
+        quick: &[150.0],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: pictures::lens,
     },
     Case {
-        name: "few",
-        about: "Almost no balls.",
+        name: "narrow-lens",
+        subject: Subject::Pictures,
+        about: "A narrow lens before twenty balls.",
+        parameter: "vertical field of view, degrees",
+        values: &[38.0, 10.0, 1.0, 0.1, 0.01, 1e-3, 1e-4],
+        quick: &[0.1],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: pictures::lens,
+    },
+    Case {
+        name: "nudged",
+        subject: Subject::Pictures,
+        about: "The camera moved sideways by part of a pixel before twenty balls.",
+        parameter: "part of a pixel",
+        values: &[0.5, 0.25, 0.1, 1e-2, 1e-3, 1e-4],
+        quick: &[0.25],
+        size: SIZE,
+        drawing: Drawing::Once,
+        make: pictures::nudged,
+    },
+    Case {
+        name: "image",
+        subject: Subject::Pictures,
+        about: "Twenty balls in pictures from one pixel to a strip 64 high.",
+        parameter: "pixels across",
+        values: &[1.0, 2.0, 64.0, 1024.0, 4096.0, 8192.0],
+        quick: &[1.0, 64.0],
+        size: |across| (across.round() as u32, across.round().min(64.0) as u32),
+        drawing: Drawing::Once,
+        make: pictures::strip,
+    },
+    Case {
+        name: "redrawn",
+        subject: Subject::Pictures,
+        about: "So many balls of random size; the same frame is drawn twice.",
         parameter: "number of balls",
-        values: &[3.0, 2.0, 1.0, 0.0],
-        make: |value| {
-            let balls = (0..number(value)).map(|index| Metaball::new(Vec3::X * index as f32, 1.0));
-            Ok((quartic(balls)?, looking(Vec3::new(1.0, 0.0, 6.0), Vec3::X)?))
-        },
+        values: &[1.0, 20.0, 100.0, 1000.0],
+        quick: &[20.0],
+        size: SIZE,
+        drawing: Drawing::Twice,
+        make: pictures::cloud,
+    },
+    Case {
+        name: "shuffled",
+        subject: Subject::Pictures,
+        about: "So many balls of random size, drawn in another order.",
+        parameter: "number of balls",
+        values: &[2.0, 20.0, 100.0, 1000.0],
+        quick: &[20.0],
+        size: SIZE,
+        drawing: Drawing::Shuffled,
+        make: pictures::cloud,
     },
 ];
 
@@ -335,51 +485,11 @@ fn number(value: f64) -> usize {
     value.round() as usize
 }
 
-/// So many radii at equal steps from 1 to 2.
-fn radii(value: f64) -> impl Iterator<Item = f32> {
-    let last = (number(value).max(2) - 1) as f32;
-    (0..number(value)).map(move |index| 1.0 + index as f32 / last)
-}
-
-/// Two balls so far to either side of the origin along x.
-fn pair(half_distance: f64) -> Result<Scene, LoadError> {
-    let center = Vec3::X * half_distance as f32;
-    quartic([-center, center].map(|center| Metaball::new(center, 1.0)))
-}
-
-/// One ball that the view axis passes by its core radius less `value` from its centre.
-fn grazing(value: f64) -> Result<Shot, LoadError> {
-    let core = Kernel::QUARTIC.ratio_at(f64::from(THRESHOLD)).unwrap_or(1.0);
-    let right = (value - core) as f32;
-    let scene = quartic([Metaball::new(Vec3::X * right, 1.0)])?;
-    Ok((scene, looking(Vec3::Z * 3.0, Vec3::ZERO)?))
-}
-
-fn sheet(value: f64) -> Result<Shot, LoadError> {
-    // So wide that the field is least in the middle of four balls.
-    const SPACING: f64 = 1.2;
-    const HALF: i32 = 2;
-    let sites = (-HALF..=HALF).flat_map(|row| {
-        (-HALF..=HALF)
-            .map(move |column| SPACING * DVec3::new(f64::from(column), f64::from(row), 0.0))
-    });
-    let middle = SPACING * DVec3::new(0.5, 0.5, 0.0);
-    let field: f64 =
-        sites.clone().map(|site| Kernel::QUARTIC.value(site.distance_squared(middle))).sum();
-    let scene = quartic(sites.map(|site| Metaball::new(site.as_vec3(), 1.0)))?
-        .with_threshold((field / (1.0 + value)) as f32)?;
-    Ok((scene, looking(Vec3::new(1.5, 3.0, 9.0), Vec3::ZERO)?))
-}
-
-/// One ball seen along −z from so far off its centre.
-fn eye_at(distance: f64) -> Result<Shot, LoadError> {
-    let scene = quartic([Metaball::new(Vec3::ZERO, 1.0)])?;
-    let eye = Vec3::Z * distance as f32;
-    Ok((scene, Camera::look_at(eye, eye - Vec3::Z, Vec3::Y, 90.0)?))
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+    use metaball_core::{Kernel, Metaball, Scene};
+
     use super::*;
 
     fn field(scene: &Scene, point: DVec3) -> f64 {
@@ -400,7 +510,7 @@ mod tests {
         for case in cases() {
             assert!(case.values.len() >= 4, "{}: too few values to see a limit", case.name);
             for &value in case.values {
-                let made = case.scene(value);
+                let made = case.view(value);
                 assert!(made.is_ok(), "{} at {value}: {made:?}", case.name);
             }
         }
@@ -418,18 +528,49 @@ mod tests {
     fn impossible_values_are_refused() {
         assert!(case("scale").scene(f64::NAN).is_err());
         assert!(case("threshold-near-zero").scene(-1.0).is_err());
-        assert!(case("field-of-view").scene(180.0).is_err());
+        assert!(case("wide-lens").scene(180.0).is_err());
     }
 
-    /// Up to the rounding of the centre to f32, 6e-8.
+    /// The axis passes the ball at its silhouette, up to the rounding of the eye to f32, 6e-8; the top
+    /// of the picture is as far above it as the value says, to a few roundings of the lens.
     #[test]
     fn grazing_is_as_near_as_it_says() {
         for &value in case("grazing").values {
-            let made = case("grazing").scene(value).expect("legal");
-            let center = f64::from(made.scene.ball(0).center.x);
+            let (_, view) = case("grazing").view(value).expect("legal");
+            let camera = view.camera();
             let core = Kernel::QUARTIC.ratio_at(0.25).expect("taken");
-            assert!((core - center.abs() - value).abs() < 1.2e-7);
+            assert!((f64::from(camera.eye().x) - core).abs() < 1.2e-7);
+            assert!((3.0 * f64::from(camera.half_height()) / value - 1.0).abs() < 1e-6);
+            assert_eq!((view.width() % 2, view.height() % 2), (1, 1));
         }
+    }
+
+    #[test]
+    fn quick_values_are_values() {
+        for case in cases() {
+            assert!(!case.quick.is_empty(), "{}", case.name);
+            for value in case.quick {
+                assert!(case.values.contains(value), "{} at {value}", case.name);
+            }
+        }
+    }
+
+    #[test]
+    fn cases_stand_by_subject() {
+        assert!(cases().windows(2).all(|pair| pair[0].subject <= pair[1].subject));
+    }
+
+    #[test]
+    fn shuffling_keeps_the_balls() {
+        let scene = case("shuffled").scene(100.0).expect("legal");
+        let shuffled = scene.shuffled().expect("legal");
+        let sorted = |scene: &Scene| {
+            let mut balls: Vec<_> = scene.balls().map(|ball| ball.center.to_array()).collect();
+            balls.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            balls
+        };
+        assert_ne!(scene.scene, shuffled.scene);
+        assert_eq!(sorted(&scene.scene), sorted(&shuffled.scene));
     }
 
     /// The roundings of centres and T to f32, 6e-8 each, times slopes up to 4.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io;
 
-use metaball_core::{CameraError, SceneError};
+use metaball_core::{CameraError, SceneError, ViewError};
 use thiserror::Error;
 
 /// Why there is no scene.
@@ -58,6 +58,9 @@ pub enum LoadError {
     /// The numbers make no camera.
     #[error(transparent)]
     Camera(#[from] CameraError),
+    /// The numbers make no picture.
+    #[error(transparent)]
+    View(#[from] ViewError),
 }
 
 /// A place in a file. Lines and columns count from 1; what is not known is `None`.

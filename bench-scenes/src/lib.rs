@@ -35,7 +35,7 @@ mod xyz;
 
 use metaball_core::{Camera, Scene};
 
-pub use cases::{Case, cases};
+pub use cases::{Case, Drawing, Subject, cases};
 pub use density::mean_overlap;
 pub use error::{LoadError, Place};
 pub use generate::{Generator, generators};
