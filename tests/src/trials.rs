@@ -7,6 +7,7 @@ mod fragments;
 mod frames;
 mod gallery;
 mod peeling;
+mod stability;
 mod twins;
 
 use bench_scenes::{BenchScene, Overrides};
@@ -27,6 +28,7 @@ pub fn all() -> Vec<Trial> {
     trials.extend(fragments::trials());
     trials.extend(frames::trials());
     trials.extend(peeling::trials());
+    trials.extend(stability::trials());
     trials.extend(twins::trials());
     trials
 }

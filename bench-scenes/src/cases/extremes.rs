@@ -1,4 +1,7 @@
 //! Distances, sizes, strengths and thresholds out of the common.
+//!
+//! No camera stands on the plane between two equal balls, where points of rays coincide: that is
+//! another case.
 
 use glam::Vec3;
 use metaball_core::{Camera, Metaball};
@@ -10,20 +13,20 @@ use crate::small::{Shot, looking, quartic};
 
 pub(super) fn distance(value: f64) -> Result<Shot, LoadError> {
     let fov = 2.0 * (1.6 / value).atan().to_degrees();
-    let eye = Vec3::new(0.0, 0.0, value as f32);
+    let eye = value as f32 * Vec3::new(0.28, 0.0, 0.96);
     Ok((pair(0.5)?, Camera::look_at(eye, Vec3::ZERO, Vec3::Y, fov as f32)?))
 }
 
 pub(super) fn offset(value: f64) -> Result<Shot, LoadError> {
     let offset = Vec3::splat(value as f32);
     let balls = [-0.5, 0.5].map(|x| Metaball::new(offset + Vec3::X * x, 1.0));
-    Ok((quartic(balls)?, looking(offset + Vec3::new(0.0, 0.0, 5.0), offset)?))
+    Ok((quartic(balls)?, looking(offset + Vec3::new(1.5, 1.0, 5.0), offset)?))
 }
 
 pub(super) fn scale(value: f64) -> Result<Shot, LoadError> {
     let scale = value as f32;
     let balls = [-0.5, 0.5].map(|x| Metaball::new(Vec3::X * (x * scale), scale));
-    Ok((quartic(balls)?, looking(Vec3::Z * (5.0 * scale), Vec3::ZERO)?))
+    Ok((quartic(balls)?, looking(scale * Vec3::new(1.5, 1.0, 5.0), Vec3::ZERO)?))
 }
 
 pub(super) fn radius_ratio(value: f64) -> Result<Shot, LoadError> {
@@ -46,7 +49,7 @@ pub(super) fn background(value: f64) -> Result<Shot, LoadError> {
 pub(super) fn strength(value: f64) -> Result<Shot, LoadError> {
     let strong = Metaball { center: Vec3::NEG_X * 0.8, radius: 1.0, strength: value as f32 };
     let scene = quartic([strong, Metaball::new(Vec3::X * 0.8, 1.0)])?;
-    Ok((scene, looking(Vec3::new(0.0, 0.0, 6.0), Vec3::ZERO)?))
+    Ok((scene, looking(Vec3::new(1.5, 1.0, 6.0), Vec3::ZERO)?))
 }
 
 pub(super) fn exponent(value: f64) -> Result<Shot, LoadError> {
@@ -56,7 +59,7 @@ pub(super) fn exponent(value: f64) -> Result<Shot, LoadError> {
 
 pub(super) fn threshold_near_zero(value: f64) -> Result<Shot, LoadError> {
     let scene = pair(0.8)?.with_threshold(value as f32)?;
-    Ok((scene, looking(Vec3::new(0.0, 0.0, 6.0), Vec3::ZERO)?))
+    Ok((scene, looking(Vec3::new(1.5, 1.0, 6.0), Vec3::ZERO)?))
 }
 
 pub(super) fn threshold_near_maximum(value: f64) -> Result<Shot, LoadError> {

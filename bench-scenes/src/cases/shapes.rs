@@ -1,4 +1,5 @@
-//! What is thin, near, or only just touched.
+//! What is thin, near, or only just touched. Cameras stand beside planes of symmetry, where points of
+//! rays would coincide.
 
 use glam::{DVec3, Vec3};
 use metaball_core::{Camera, Kernel, Metaball, Scene};
@@ -27,7 +28,7 @@ pub(super) fn neck(value: f64) -> Result<Shot, LoadError> {
     // Each ball gives half of the field in the middle.
     let each = 0.5 * f64::from(THRESHOLD) * (1.0 + value);
     let ratio = Kernel::QUARTIC.ratio_at(each).unwrap_or(1.0);
-    Ok((pair(ratio)?, looking(Vec3::new(0.0, 0.0, 2.0), Vec3::ZERO)?))
+    Ok((pair(ratio)?, looking(Vec3::new(0.3, 0.2, 2.0), Vec3::ZERO)?))
 }
 
 pub(super) fn sheet(value: f64) -> Result<Shot, LoadError> {
@@ -47,7 +48,7 @@ pub(super) fn sheet(value: f64) -> Result<Shot, LoadError> {
 }
 
 pub(super) fn touching(value: f64) -> Result<Shot, LoadError> {
-    Ok((pair(1.0 + 0.5 * value)?, looking(Vec3::new(0.0, 0.0, 6.0), Vec3::ZERO)?))
+    Ok((pair(1.0 + 0.5 * value)?, looking(Vec3::new(0.3, 0.2, 6.0), Vec3::ZERO)?))
 }
 
 pub(super) fn two_levels(value: f64) -> Result<Shot, LoadError> {

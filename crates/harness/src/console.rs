@@ -26,7 +26,7 @@ impl Progress {
     /// A bar of so many steps.
     pub fn new(steps: u64) -> Self {
         let bar = ProgressBar::new(steps);
-        let template = "{elapsed_precise} {wide_bar:.cyan} {pos}/{len} {msg:40!}";
+        let template = "{elapsed_precise} {wide_bar:.cyan} {pos}/{len} {eta} left  {msg:40!}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
@@ -37,12 +37,14 @@ impl Progress {
         Self { bar, watched }
     }
 
-    /// Says what begins now.
+    /// Says what begins now, and for about how long it will go on.
     pub fn stage(&self, text: String) {
         if self.watched {
             self.bar.set_message(text);
-        } else {
+        } else if self.bar.position() == 0 {
             note(&text);
+        } else {
+            note(&format!("{text} (about {} s left)", self.bar.eta().as_secs()));
         }
     }
 

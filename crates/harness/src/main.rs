@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 
-use bench_scenes::{LoadError, Overrides, kernel_named};
+use bench_scenes::{Case, LoadError, Overrides, kernel_named};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
@@ -13,6 +13,8 @@ use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
 use harness::render::{Device, Order, render};
+use harness::stability::entrants::{Entrant, entrants};
+use harness::stability::{self, stability};
 use harness::tables::gourmel::plan::Extent;
 use harness::tables::{gourmel, illes, kanamori};
 use harness::{console, list};
@@ -82,6 +84,23 @@ enum Command {
     Tables {
         #[command(subcommand)]
         paper: Paper,
+    },
+    /// Turn the parameters of stability cases until methods break, and write a page about where.
+    Stability {
+        /// A few values of each case only: about a minute, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Cases, separated by commas; all when left out.
+        #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = case_parser())]
+        cases: Vec<&'static Case>,
+        /// Methods and their options, separated by commas; all when left out.
+        #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = entrant_parser())]
+        methods: Vec<Entrant>,
+        /// Folder for index.html and records.json.
+        #[arg(long, value_name = "DIR", default_value = "out/stability")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
     },
     /// List the known scenes and the generators.
     Scenes,
@@ -219,6 +238,23 @@ fn method_parser() -> impl TypedValueParser<Value = &'static Method> {
     PossibleValuesParser::new(names).map(|name| find(&name).expect("only names of methods pass"))
 }
 
+/// A stability case by name.
+fn case_parser() -> impl TypedValueParser<Value = &'static Case> {
+    let named = |name: &str| bench_scenes::cases().iter().find(|case| case.name == name);
+    let names = bench_scenes::cases().iter().map(|case| PossibleValue::new(case.name));
+    PossibleValuesParser::new(names)
+        .map(move |name| named(&name).expect("only names of cases pass"))
+}
+
+/// A method, or one with an option turned, by name.
+fn entrant_parser() -> impl TypedValueParser<Value = Entrant> {
+    let names = entrants().into_iter().map(|entrant| PossibleValue::new(entrant.name));
+    PossibleValuesParser::new(names).map(|name| {
+        let mut all = entrants().into_iter();
+        all.find(|entrant| entrant.name == name).expect("only names of entrants pass")
+    })
+}
+
 fn main() -> ExitCode {
     match run(Cli::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
@@ -278,6 +314,9 @@ fn run(command: Command) -> anyhow::Result<()> {
             };
             let size = size.map(|Size(width, height)| (width, height));
             illes::tables(&illes::Order { extent, size, adapter: device.choice(), out })
+        }
+        Command::Stability { quick, cases, methods, out, device } => {
+            stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })
         }
         Command::Scenes => {
             list::scenes();
@@ -340,6 +379,21 @@ mod tests {
     }
 
     #[test]
+    fn stability_tries_everything_unless_told() {
+        let Ok(Command::Stability { quick, cases, methods, out, .. }) = parse("metaball stability")
+        else {
+            panic!("stability needs no arguments");
+        };
+        assert!(!quick && cases.is_empty() && methods.is_empty());
+        assert_eq!(out, PathBuf::from("out/stability"));
+        let line = "metaball stability --quick --cases crowd,neck --methods kanamori+distinct";
+        let Ok(Command::Stability { quick, cases, methods, .. }) = parse(line) else {
+            panic!("a legal command line");
+        };
+        assert!(quick && cases.len() == 2 && methods[0].name == "kanamori+distinct");
+    }
+
+    #[test]
     fn mistakes_are_named() {
         let message = |line| parse(line).expect_err("a mistake").to_string();
         assert!(message("metaball compare --methods nosuch").contains("bvh"));
@@ -348,6 +402,7 @@ mod tests {
         assert!(message("metaball compare --frames 0").contains("--frames"));
         assert!(message("metaball render molecule --picture nosuch").contains("work:"));
         assert!(message("metaball compare --kernel gauss").contains("wyvill or perlin"));
+        assert!(message("metaball stability --cases nosuch").contains("grazing"));
         assert!(parse("metaball render").is_err());
         assert!(parse("metaball render molecule --cpu --software").is_err());
         assert!(parse("metaball tables").is_err());

@@ -1,0 +1,207 @@
+//! What is expected of every method at every value: the only table of stated limits.
+//!
+//! Whatever is not listed is expected to be right. A published method is listed where its paper says
+//! that it fails, and the expectation fails when it no longer does; a robust or certified one where
+//! its limit is, and there it must say so. *Broken* is a known defect: it stands here so that nobody
+//! forgets it, and so that the test fails when it is mended.
+
+use bench_scenes::Case;
+
+use super::cell::Outcome;
+use super::cell::Outcome::{Broken, Coarse, Lost, Right, Told};
+
+/// From a value on, in the order of the case's values, this is what becomes of a method.
+type From = (f64, Outcome);
+
+/// A method's limit in a case.
+type Limit = (&'static str, &'static [From]);
+
+/// The limits of each entrant, by case. An outcome goes on to the end of the case's values or to the
+/// next outcome; what is not listed is right. Measured on a software adapter.
+const LIMITS: &[(&str, &[Limit])] = &[
+    // Section 7: points that coincide are lost, and more balls than a list of 14 holds are drawn as
+    // supports (section 4.2).
+    (
+        "kanamori",
+        &[
+            ("coincident", &[(2.0, Lost)]),
+            ("crowd", &[(15.0, Told)]),
+            ("common-entry", &[(2.0, Lost)]),
+            ("distance", &[(1e4, Coarse)]),
+        ],
+    ),
+    // The same: a finer clipping does not help.
+    (
+        "kanamori+fine",
+        &[
+            ("coincident", &[(2.0, Lost)]),
+            ("crowd", &[(15.0, Told)]),
+            ("common-entry", &[(2.0, Lost)]),
+            ("distance", &[(1e4, Coarse)]),
+        ],
+    ),
+    // Coincident points are told apart; the list is as short.
+    (
+        "kanamori+distinct",
+        &[
+            ("coincident", &[(15.0, Told)]),
+            ("crowd", &[(15.0, Told)]),
+            ("distance", &[(1e4, Coarse)]),
+        ],
+    ),
+    // 29 balls on a list: where more overlap, it says so.
+    ("kanamori-robust", &[("coincident", &[(30.0, Told)]), ("distance", &[(1e4, Coarse)])]),
+    // Section 3: a surface into which no centre projects is missed; f32 distances from afar.
+    (
+        "bvh",
+        &[
+            ("coincident", &[(4096.0, Broken)]),
+            ("distance", &[(1e4, Coarse)]),
+            ("neck", &[(1e-3, Lost)]),
+            ("sheet", &[(1e-3, Lost)]),
+            ("nudged", &[(0.25, Lost)]),
+        ],
+    ),
+    // The same.
+    (
+        "fbvh",
+        &[
+            ("coincident", &[(4096.0, Broken)]),
+            ("distance", &[(1e4, Coarse)]),
+            ("neck", &[(1e-3, Lost)]),
+            ("sheet", &[(1e-3, Lost)]),
+        ],
+    ),
+    // Right everywhere but for what is broken: defects, to be mended.
+    (
+        "fbvh-certified",
+        &[
+            ("coincident", &[(29.0, Broken)]),
+            ("radius-ratio", &[(1000.0, Broken)]),
+            ("grazing", &[(0.01, Told)]),
+        ],
+    ),
+    // Section 3: a cubic for the kernel; section 6: an array of 96 separators, three a ball.
+    (
+        "illes",
+        &[
+            ("coincident", &[(33.0, Told)]),
+            ("crowd", &[(33.0, Told)]),
+            ("common-entry", &[(2.0, Lost)]),
+            ("radius-ratio", &[(1000.0, Lost)]),
+            ("exponent", &[(4.0, Lost)]),
+            ("neck", &[(1e-3, Lost)]),
+            ("sheet", &[(1e-3, Lost)]),
+            ("wide-lens", &[(150.0, Lost)]),
+            ("nudged", &[(0.25, Lost)]),
+            ("image", &[(64.0, Lost)]),
+            ("redrawn", &[(20.0, Lost)]),
+            ("shuffled", &[(20.0, Lost)]),
+        ],
+    ),
+    // Section 4: a running sum that loses its digits away from the eye.
+    (
+        "illes-absolute",
+        &[
+            ("few", &[(1.0, Lost), (0.0, Right)]),
+            ("coincident", &[(33.0, Told)]),
+            ("crowd", &[(33.0, Told)]),
+            ("common-entry", &[(2.0, Lost)]),
+            ("veiled", &[(65.0, Lost)]),
+            ("distance", &[(1e4, Broken)]),
+            ("radius-ratio", &[(1000.0, Lost)]),
+            ("background", &[(1e4, Broken)]),
+            ("exponent", &[(4.0, Lost)]),
+            ("grazing", &[(0.01, Lost)]),
+            ("neck", &[(1e-3, Lost)]),
+            ("sheet", &[(1e-3, Lost)]),
+            ("wide-lens", &[(150.0, Lost)]),
+            ("nudged", &[(0.25, Lost)]),
+            ("image", &[(64.0, Lost)]),
+            ("redrawn", &[(20.0, Lost)]),
+            ("shuffled", &[(20.0, Lost)]),
+        ],
+    ),
+    // Degree six at most, and the same array.
+    (
+        "illes-exact",
+        &[
+            ("coincident", &[(33.0, Told)]),
+            ("crowd", &[(33.0, Told)]),
+            ("exponent", &[(4.0, Told)]),
+        ],
+    ),
+    // An array for ten balls.
+    (
+        "illes-exact+30",
+        &[
+            ("coincident", &[(13.0, Told)]),
+            ("crowd", &[(15.0, Told)]),
+            ("exponent", &[(4.0, Told)]),
+        ],
+    ),
+    // Degree six at most.
+    ("illes-robust", &[("exponent", &[(4.0, Told)])]),
+    // The same cubics as `illes`.
+    (
+        "illes-compute",
+        &[
+            ("coincident", &[(33.0, Told)]),
+            ("crowd", &[(33.0, Told)]),
+            ("common-entry", &[(2.0, Lost)]),
+            ("radius-ratio", &[(1000.0, Lost)]),
+            ("exponent", &[(4.0, Lost)]),
+            ("neck", &[(1e-3, Lost)]),
+            ("sheet", &[(1e-3, Lost)]),
+            ("wide-lens", &[(150.0, Lost)]),
+            ("nudged", &[(0.25, Lost)]),
+            ("image", &[(64.0, Lost)]),
+            ("redrawn", &[(20.0, Lost)]),
+            ("shuffled", &[(20.0, Lost)]),
+        ],
+    ),
+];
+
+/// What is expected of an entrant at one of the case's values.
+pub fn expected(method: &str, case: &Case, value: f64) -> Outcome {
+    let place = |value: f64| case.values.iter().position(|&known| known == value);
+    let of_method = LIMITS.iter().filter(|(name, _)| *name == method);
+    let mut of_case =
+        of_method.flat_map(|(_, limits)| *limits).filter(|(name, _)| *name == case.name);
+    let steps = of_case.next().map_or(&[][..], |(_, steps)| *steps);
+    let mut reached = steps.iter().filter(|(from, _)| place(*from) <= place(value));
+    reached.next_back().map_or(Right, |(_, outcome)| *outcome)
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::cases;
+
+    use super::*;
+    use crate::stability::entrants::entrants;
+
+    #[test]
+    fn every_limit_is_of_an_entrant_and_at_values_of_a_case() {
+        for (method, limits) in LIMITS {
+            assert!(entrants().iter().any(|entrant| entrant.name == *method), "{method}");
+            for (name, steps) in *limits {
+                let case = cases().iter().find(|case| case.name == *name);
+                let values = case.unwrap_or_else(|| panic!("{method}: no case {name}")).values;
+                let places: Vec<_> = steps
+                    .iter()
+                    .map(|(value, _)| values.iter().position(|known| known == value))
+                    .collect();
+                assert!(places.iter().all(Option::is_some), "{method}, {name}: {steps:?}");
+                assert!(places.is_sorted(), "{method}, {name}: {steps:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_outcome_lasts_until_the_next() {
+        let case = cases().iter().find(|case| case.name == "crowd").expect("known");
+        let at = |value| expected("kanamori", case, value);
+        assert_eq!([at(14.0), at(15.0), at(140.0)], [Right, Told, Told]);
+        assert_eq!(expected("no such entrant", case, 4096.0), Right);
+    }
+}

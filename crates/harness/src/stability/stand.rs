@@ -1,0 +1,118 @@
+//! Where cases are tried: the device, and renderers that live on from scene to scene.
+
+use bench_scenes::{Case, Drawing};
+use metaball_core::gpu::{Frame, Gpu, IsoRenderer, RenderError, Targets, render};
+use metaball_core::reference::Oracle;
+use metaball_core::{Hit, Scene, View};
+
+use super::cell::Cell;
+use super::entrants::Entrant;
+use crate::judge::Exam;
+
+/// Rays of a picture that are judged at most, spread evenly.
+const MOST_RAYS: usize = 900;
+
+/// Scenes of more balls leave renderers with more room than small scenes want: they are made anew.
+const ROOMY: usize = 100;
+
+/// Entrants with their renderers. Composing shaders takes longer than most of these pictures, so
+/// renderers live as long as they can.
+pub struct Stand<'a> {
+    gpu: &'a Gpu,
+    targets: Option<Targets>,
+    entrants: Vec<(Entrant, Box<dyn IsoRenderer>)>,
+}
+
+impl<'a> Stand<'a> {
+    /// Nothing is made yet on the device.
+    pub fn new(gpu: &'a Gpu, entrants: impl IntoIterator<Item = Entrant>) -> Self {
+        let with_renderer = |entrant: Entrant| (entrant, entrant.renderer());
+        Self { gpu, targets: None, entrants: entrants.into_iter().map(with_renderer).collect() }
+    }
+
+    /// Tries every entrant at a value of a case, each against the same truth.
+    ///
+    /// # Errors
+    /// When the value makes no scene, or the device fails; what a method refuses is an outcome.
+    pub fn attempt(&mut self, case: &Case, value: f64) -> anyhow::Result<Vec<Cell>> {
+        let (bench, view) = case.view(value)?;
+        let other = match case.drawing {
+            Drawing::Shuffled => bench.shuffled()?.scene,
+            Drawing::Once | Drawing::Twice => bench.scene.clone(),
+        };
+        let targets = match self.targets.take() {
+            Some(made) if (made.width(), made.height()) == (view.width(), view.height()) => made,
+            _ => Targets::new(self.gpu, view.width(), view.height(), false, false)?,
+        };
+        // A frame without a method makes the rays.
+        Frame::begin(self.gpu, &targets, &view)?.finish()?;
+        let pixels = judged_pixels(view.pixels());
+        let rays = pick(&targets.read_rays(self.gpu, &view)?, &pixels);
+        let oracle = Oracle::new(&bench.scene);
+        let exam = Exam::new(&bench.scene, &oracle, &rays);
+
+        let mut cells = Vec::new();
+        for (entrant, renderer) in &mut self.entrants {
+            let mut draw =
+                |scene: &Scene| draw(self.gpu, renderer.as_mut(), &targets, scene, &view);
+            let drawn = draw(&bench.scene).and_then(|first| match case.drawing {
+                Drawing::Once => Ok((first, None)),
+                Drawing::Twice | Drawing::Shuffled => {
+                    let second = draw(&other)?;
+                    let differing = first.iter().zip(&second).filter(|(a, b)| a != b).count();
+                    Ok((second, Some(differing)))
+                }
+            });
+            let place = (case.name, value);
+            cells.push(match drawn {
+                Ok((hits, differing)) => {
+                    let picture = (&exam, pick(&hits, &pixels));
+                    let must_repeat = case.drawing == Drawing::Twice;
+                    Cell::judged(place, entrant, (picture.0, &picture.1), differing, must_repeat)
+                }
+                Err(error) if is_refusal(&error) => {
+                    Cell::refused(case.name, value, entrant, error.to_string())
+                }
+                Err(error) => return Err(error.into()),
+            });
+            if bench.scene.len() > ROOMY {
+                *renderer = entrant.renderer();
+            }
+        }
+        self.targets = Some(targets);
+        Ok(cells)
+    }
+}
+
+/// Whether a method said that it cannot, and why; anything else is a failure of the device or of us.
+fn is_refusal(error: &RenderError) -> bool {
+    matches!(
+        error,
+        RenderError::Unsupported { .. }
+            | RenderError::Structure { .. }
+            | RenderError::TooLarge { .. }
+            | RenderError::Incomplete { .. }
+    )
+}
+
+fn draw(
+    gpu: &Gpu,
+    renderer: &mut dyn IsoRenderer,
+    targets: &Targets,
+    scene: &Scene,
+    view: &View,
+) -> Result<Vec<Hit>, RenderError> {
+    renderer.build(gpu, scene)?;
+    render(gpu, renderer, targets, view)?;
+    targets.read_hits(gpu)
+}
+
+/// Rising indices of the pixels whose rays are judged.
+fn judged_pixels(pixels: usize) -> Vec<usize> {
+    let count = pixels.min(MOST_RAYS);
+    (0..count).map(|index| index * pixels / count).collect()
+}
+
+fn pick<T: Copy>(all: &[T], pixels: &[usize]) -> Vec<T> {
+    pixels.iter().map(|&pixel| all[pixel]).collect()
+}
