@@ -126,7 +126,9 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Entrant]) -> Strin
     let row = |case: &&Case| {
         let limit = |method: &Entrant| {
             stability.limit(case.name, method.name).map_or_else(String::new, |limit| {
-                let value = limit.fails_at.map_or_else(String::new, |value| format!(" {value:e}"));
+                let value = limit
+                    .fails_at
+                    .map_or_else(String::new, |value| format!(" {}", page::tick(value)));
                 format!("{}{value}", limit.first.word())
             })
         };
@@ -142,9 +144,10 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Entrant]) -> Strin
             let found = cell.map_or(Outcome::Right, |cell| cell.outcome);
             let note = cell.and_then(|cell| cell.note.clone()).unwrap_or_default();
             unexpected += &format!(
-                "\n  {}, {} = {value:e}: {} {note}",
+                "\n  {}, {} = {}: {} {note}",
                 limit.method,
                 limit.case,
+                page::tick(*value),
                 found.word()
             );
             count += 1;

@@ -271,7 +271,7 @@ fn notes(stability: &Stability) -> String {
 }
 
 /// A value as an axis would show it.
-fn tick(value: f64) -> String {
+pub(super) fn tick(value: f64) -> String {
     let size = value.abs();
     let sign = if value < 0.0 { "\u{2212}" } else { "" };
     if size == 0.0 || (1e-2..1e4).contains(&size) {
