@@ -52,7 +52,11 @@ const LIMITS: &[(&str, &[Limit])] = &[
     // 29 balls on a list: where more overlap, it says so. Far away as illes-robust.
     (
         "kanamori-robust",
-        &[("coincident", &[(30.0, Told)]), ("distance", &[(1e4, Coarse), (1e6, Broken)])],
+        &[
+            ("coincident", &[(30.0, Told)]),
+            ("crowd", &[(65.0, Told)]),
+            ("distance", &[(1e4, Coarse), (1e6, Broken)]),
+        ],
     ),
     // Section 3: a surface into which no centre projects is missed; f32 distances from afar.
     (
