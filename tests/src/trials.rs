@@ -6,6 +6,7 @@ mod capacity;
 mod fragments;
 mod frames;
 mod gallery;
+mod light;
 mod peeling;
 mod stability;
 mod twins;
@@ -27,6 +28,7 @@ pub fn all() -> Vec<Trial> {
     trials.extend(capacity::trials());
     trials.extend(fragments::trials());
     trials.extend(frames::trials());
+    trials.extend(light::trials());
     trials.extend(peeling::trials());
     trials.extend(stability::trials());
     trials.extend(twins::trials());

@@ -4,8 +4,8 @@
 //! [`contest`] is the heart: it takes a scene through all [`methods`], asks the oracle about the rays
 //! that the shaders used ([`mod@reference`]), and yields a [`record`] for each. [`score`] holds the one
 //! set of definitions of what is wrong, [`measure`] those of what is fast, [`judge`] what each method
-//! promises and is held to. [`compare`], [`render`]
-//! and [`stability`] are the commands. [`tables`] holds the tables of papers.
+//! promises and is held to. [`compare`], [`render`] and [`stability`] are the commands; [`light`] has
+//! the effects of `render`. [`tables`] holds the tables of papers.
 //! [`cpu`] and [`shade`] draw where there is no adapter.
 
 pub mod compare;
@@ -16,6 +16,7 @@ pub mod heat;
 pub mod hits_exr;
 pub mod html;
 pub mod judge;
+pub mod light;
 pub mod list;
 pub mod machine;
 pub mod measure;

@@ -9,6 +9,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
 use harness::contest::Rules;
+use harness::light::LightOptions;
 use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
@@ -77,6 +78,8 @@ enum Command {
         /// Trace on the CPU, without a graphics adapter: what happens anyway where there is none.
         #[arg(long, conflicts_with_all = ["adapter", "software"])]
         cpu: bool,
+        #[command(flatten)]
+        light: Box<LightOptions>,
         #[command(flatten)]
         common: Common,
     },
@@ -287,10 +290,11 @@ fn run(command: Command) -> anyhow::Result<()> {
             let (overrides, adapter) = (common.overrides(), common.adapter());
             compare(&Comparison { scenes, overrides, rules, adapter, out })
         }
-        Command::Render { scene, method, out, hits, picture, cpu, common } => {
+        Command::Render { scene, method, out, hits, picture, cpu, light, common } => {
             let (overrides, size) = (common.overrides(), common.size());
             let device = if cpu { Device::Cpu } else { Device::Adapter(common.adapter()) };
-            render(&Order { scene, overrides, method, size, picture, device, out, hits })
+            let light = *light;
+            render(&Order { scene, overrides, method, size, picture, light, device, out, hits })
         }
         Command::Tables { paper: Paper::Gourmel { quick, size, out, device } } => {
             let extent =

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use anyhow::ensure;
 use bench_scenes::{BenchScene, Overrides, load};
 use metaball_core::gpu::{self, AdapterChoice, Gpu, GpuError, Picture, Shaded, Shading, Targets};
 use metaball_core::{Hit, View};
 
 use crate::hits_exr::write_hits;
+use crate::light::{self, LightOptions};
 use crate::measure::milliseconds;
 use crate::methods::Method;
 use crate::numbers::{decimal, grouped};
@@ -28,6 +30,8 @@ pub struct Order {
     pub size: (u32, u32),
     /// What the picture shows.
     pub picture: Picture,
+    /// Effects, in the place of the shared Phong picture.
+    pub light: LightOptions,
     /// What to draw with.
     pub device: Device,
     /// Where the PNG goes.
@@ -52,6 +56,8 @@ struct Drawn {
     shaded: Shaded,
     build_ms: f64,
     frame_ms: f64,
+    /// What the light took, where there are effects.
+    light: Option<String>,
     device: String,
 }
 
@@ -89,6 +95,9 @@ pub fn render(order: &Order) -> anyhow::Result<()> {
     for (name, value) in facts {
         console::line(&format!("{name:<10} {value}"));
     }
+    if let Some(light) = &drawn.light {
+        console::line(&format!("{:<10} {light}", "light"));
+    }
     if let Some(range) = drawn.shaded.range {
         console::line(&format!("{:<10} {} to {}", "scale", range.low, range.high));
     }
@@ -122,9 +131,18 @@ fn on_adapter(gpu: &Gpu, order: &Order, bench: &BenchScene, view: &View) -> anyh
     let build = renderer.build(gpu, scene)?;
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?;
+    let (shaded, light) = if order.light.is_asked() {
+        let lit = order.light.expose(gpu, renderer.as_mut(), bench, view)?;
+        order.light.write_light(&lit.film)?;
+        let image = lit.film.develop(order.light.stops());
+        (Shaded { image, range: None }, Some(light::facts(&lit)))
+    } else {
+        (Shading::new(gpu).draw(&targets, view, scene, order.picture)?, None)
+    };
     Ok(Drawn {
         hits: targets.read_hits(gpu)?,
-        shaded: Shading::new(gpu).draw(&targets, view, scene, order.picture)?,
+        shaded,
+        light,
         build_ms: milliseconds(build.structure),
         frame_ms: milliseconds(frame.wall),
         device: format!("{} ({})", gpu.report().name, gpu.report().driver),
@@ -132,6 +150,10 @@ fn on_adapter(gpu: &Gpu, order: &Order, bench: &BenchScene, view: &View) -> anyh
 }
 
 fn on_cpu(order: &Order, bench: &BenchScene, view: &View) -> anyhow::Result<Drawn> {
+    ensure!(
+        !order.light.is_asked(),
+        "light needs a graphics adapter; the CPU shades phong, normal, depth and color"
+    );
     let look = Look::of(order.picture)?;
     let traced = cpu::trace(order.method, &bench.scene, view)?;
     let device = match order.device {
@@ -141,6 +163,7 @@ fn on_cpu(order: &Order, bench: &BenchScene, view: &View) -> anyhow::Result<Draw
     Ok(Drawn {
         shaded: shade::draw(&bench.scene, view, &traced.rays, &traced.hits, look),
         hits: traced.hits,
+        light: None,
         build_ms: milliseconds(traced.build),
         frame_ms: milliseconds(traced.frame),
         device: device.to_owned(),
@@ -162,6 +185,7 @@ mod tests {
             method: find("fbvh").expect("listed"),
             size: (16, 12),
             picture: Picture::Phong,
+            light: LightOptions::default(),
             device: Device::Cpu,
             out: folder.join("image.png"),
             hits: Some(folder.join("hits.exr")),

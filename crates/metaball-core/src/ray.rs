@@ -72,13 +72,21 @@ pub struct PackedHit {
     pub normal: [f32; 2],
     /// Distance along the ray; 0 for a miss.
     pub t: f32,
-    /// The verdict's number in the low byte, plus [`PackedHit::FALLBACK`].
+    /// The verdict's number in the low byte, plus [`PackedHit::FALLBACK`]; above them the upper bits
+    /// of the [clearance](PackedHit::clearance).
     pub status: u32,
 }
 
 impl PackedHit {
     /// The bit of `status` that marks a fallback pixel.
     pub const FALLBACK: u32 = 1 << 8;
+
+    /// What a ray that goes on from the hit must keep from it at its start, along the normal, to be
+    /// on the side of the surface that it leaves on: scene units, rounded up. 0 where the method does
+    /// not tell.
+    pub fn clearance(self) -> f32 {
+        f32::from_bits(self.status & !0x1ff)
+    }
 
     /// Unpacks what a shader wrote. A status that no shader writes reads as undecided.
     pub fn unpack(self) -> Hit {

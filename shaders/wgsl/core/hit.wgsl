@@ -7,7 +7,7 @@ struct Hit {
     normal: vec2<f32>,
     // Distance along the ray, scene units; 0 for a miss.
     t: f32,
-    // One of the statuses below, plus FALLBACK.
+    // One of the statuses below, plus FALLBACK; above them the clearance.
     status: u32,
 }
 
@@ -31,6 +31,18 @@ fn write_miss(pixel: u32) {
 // FALLBACK.
 fn write_hit(pixel: u32, t: f32, normal: vec3<f32>, status: u32) {
     hits[pixel] = Hit(fold(normal), t, status);
+}
+
+// The same from where rays go on: `clearance` is what a ray's start must keep from the hit, along
+// the normal, to be on the side of the surface that it leaves on. Scene units, not negative. The upper
+// 23 bits of the float are kept, rounded up.
+fn write_hit_with_clearance(pixel: u32, t: f32, normal: vec3<f32>, status: u32, clearance: f32) {
+    let upper = (bitcast<u32>(clearance) + 511u) & ~511u;
+    hits[pixel] = Hit(fold(normal), t, status | upper);
+}
+
+fn clearance_of(hit: Hit) -> f32 {
+    return bitcast<f32>(hit.status & ~511u);
 }
 
 fn write_nothing(pixel: u32) {

@@ -1,16 +1,21 @@
 // The first root in a leaf by exact ranges: no ray's answer is ever wrong, for any kernel that falls
 // with distance. Stands in for leaf.wgsl in trees of classified boxes. Twin:
-// crates/fbvh/src/certified.rs, which derives what is used here.
+// crates/fbvh/src/trace/certified.rs, which derives what is used here.
+//
+// What is searched for is where an excess rises to 0: F - T for rays that look for the solid
+// (rises.wgsl), T - F for rays that look for the way out of it (falls.wgsl). Below, "above" and "below"
+// are said of the excess.
 #define_import_path metaball::fbvh::leaf
 
-#import metaball::fbvh::local::{at, local_frame, Frame}
-#import metaball::fbvh::structure::{leaves, lists, Stretch}
+#import metaball::fbvh::excess::{bounds_on, SIGN, SOLID_ENDS}
+#import metaball::fbvh::local::{at, local_frame, Frame, UNIT}
+#import metaball::fbvh::structure::{leaves, lists, Leaf}
 #import metaball::fbvh::suspend::{can_go_on, spent}
 #import metaball::hit::{HIT, INSIDE, UNDECIDED}
-#import metaball::kernel::{kernel, kernel_slope, steepest_slope}
+#import metaball::kernel::{kernel, kernel_slope}
+#import metaball::ray::{any_will_do, Ray}
 #import metaball::scene::{scene, supports}
 #import metaball::strength::strength
-#import metaball::view::Ray
 #import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test}
 
 // Leaves do not overlap: once one holds a hit, no later one holds a nearer.
@@ -22,7 +27,7 @@ fn first_hit_ends() -> bool {
 const MISSED: u32 = 0u;
 const FOUND: u32 = 1u;
 const WAITING: u32 = 2u;
-// Nothing, but the field came so close to T at the leaf's far side that only a hit beyond can tell.
+// Nothing, but the excess came so close to 0 at the leaf's far side that only a hit beyond can tell.
 const DOUBTED: u32 = 3u;
 
 // Stages of a search: on the way through the leaf, or between the ends of a bracket.
@@ -30,7 +35,7 @@ const ENTER: u32 = 0u;
 const NARROW: u32 = 1u;
 const SOLVE: u32 = 2u;
 
-// The search as it stands, in the leaf's local t: nothing before `low` reaches T, the interval looked
+// The search as it stands, in the leaf's local t: nothing before `low` reaches 0, the interval looked
 // at is from `low_value` to `high`. A hit leaves its global t in `high`.
 struct Search {
     stage: u32,
@@ -50,74 +55,11 @@ fn status_found() -> u32 {
     return found;
 }
 
-// Two to the power of -23: WGSL may round to either neighbour.
-const UNIT: f32 = 0x1p-23f;
 // An interval of this part of the smallest radius in it is short: a root in it is known well enough.
 const SHORT: f32 = 0x1p-20f;
 
-// What is certain of the field on an interval, and what it is at the interval's end.
-struct Bounds {
-    // Nowhere more than this.
-    most: f32,
-    // The slope is nowhere less, 1/scene unit.
-    least_slope: f32,
-    // At the end: certainly at least this.
-    end_least: f32,
-    // Least radius among the balls that reach the interval.
-    radius: f32,
-}
-
-// One walk along the leaf's list.
-fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32, high: f32) -> Bounds {
-    count_evaluations(end - first);
-    spent += end - first;
-    var most = 0.0;
-    var least_slope = 0.0;
-    var end_least = 0.0;
-    var radius = 1e38;
-    for (var entry = first; entry < end; entry++) {
-        let ball = lists[entry];
-        let support = supports[ball];
-        let offset = (support.center - frame.center) - frame.origin;
-        let middle = dot(offset, direction);
-        let off_axis = offset - middle * direction;
-        let inverse_radius = 1.0 / support.radius;
-        let inverse_square = inverse_radius * inverse_radius;
-        let off_square = dot(off_axis, off_axis);
-        // How far rounding can move v = 1 - r^2/R^2.
-        let margin = frame.margin + frame.margin_length * inverse_radius;
-
-        let near = clamp(middle, low, high) - middle;
-        let v_most = 1.0 - (off_square + near * near) * inverse_square + margin;
-        if v_most <= 0.0 {
-            continue;
-        }
-        let to_end = high - middle;
-        let to_start = low - middle;
-        let v_end = 1.0 - (off_square + to_end * to_end) * inverse_square;
-        let v_start = 1.0 - (off_square + to_start * to_start) * inverse_square;
-        let q = strength(ball);
-        most += q * kernel(v_most);
-        end_least += q * kernel(v_end - margin);
-        // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: of one sign on either side of the
-        // projection, and bounded there by the product of what bounds its factors.
-        var slope = 0.0;
-        if middle >= high {
-            let gentlest = min(kernel_slope(v_start - margin), kernel_slope(v_end - margin));
-            slope = gentlest * max(middle - high, 0.0) * (1.0 - 16.0 * UNIT);
-        } else {
-            slope = -steepest_slope(v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
-        }
-        least_slope += 2.0 * q * inverse_square * slope;
-        radius = min(radius, support.radius);
-    }
-    // The sum of n terms of one sign, each of a few products, errs by less than this part of it.
-    let summing = f32(end - first + 24u) * UNIT;
-    return Bounds(most * (1.0 + summing), least_slope, end_least * (1.0 - summing), radius);
-}
-
-// The field less T at a local t, and its slope: best values, no bounds.
-fn field_and_slope(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: f32) -> vec2<f32> {
+// The excess at a local t, and its slope: best values, no bounds.
+fn excess_and_slope(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: f32) -> vec2<f32> {
     count_evaluations(end - first);
     spent += end - first;
     var sum = vec2(-scene.threshold, 0.0);
@@ -132,7 +74,7 @@ fn field_and_slope(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: 
         let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
         sum += strength(ball) * vec2(kernel(v), -2.0 * along / square * kernel_slope(v));
     }
-    return sum;
+    return SIGN * sum;
 }
 
 // Goes on with the search of a leaf. FOUND leaves the hit's distance in `search.high`.
@@ -151,16 +93,20 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         }
         count_leaf_test();
         count_balls(end - first);
-        // A leaf without a list is solid.
+        // A leaf without a list is solid. Its faces lie inside the surface: a ray that is in it for no
+        // longer than rounding can make up is told by the leaves around.
         if first == end {
+            if !SOLID_ENDS || frame.leave - frame.enter <= 4.0 * frame.widening {
+                return MISSED;
+            }
             return found_at(max(at(frame, frame.enter), 0.0), select(HIT, INSIDE, frame.starts));
         }
         if frame.starts {
             let start = bounds_on(frame, ray.direction, first, end, frame.enter, frame.enter);
-            if start.end_least >= scene.threshold {
+            if start.end_least >= 0.0 {
                 return found_at(0.0, INSIDE);
             }
-            if start.most >= scene.threshold {
+            if start.most >= 0.0 {
                 return found_at(0.0, UNDECIDED);
             }
         }
@@ -171,23 +117,26 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         if !can_go_on() {
             return WAITING;
         }
-        // The interval from `probe` on is looked at; before it the field is below T up to `low`, and
+        // The interval from `probe` on is looked at; before it the excess is below 0 up to `low`, and
         // rises from there.
         let probe = search.low_value;
         let width = search.high - probe;
         let bounds = bounds_on(frame, ray.direction, first, end, probe, search.high);
         let rises = bounds.least_slope > 0.0;
-        var is_below = bounds.most < scene.threshold;
-        if !is_below && rises && bounds.end_least <= scene.threshold {
+        var is_below = bounds.most < 0.0;
+        if !is_below && rises && bounds.end_least <= 0.0 {
             // What rises is greatest at its end.
             let last = bounds_on(frame, ray.direction, first, end, search.high, search.high);
-            is_below = last.most < scene.threshold;
+            is_below = last.most < 0.0;
         }
         let is_short = width <= SHORT * bounds.radius;
-        if bounds.end_least > scene.threshold && (rises || is_short) {
+        if any_will_do() && bounds.end_least > 0.0 {
+            return found_at(max(at(frame, search.high), 0.0), HIT);
+        }
+        if bounds.end_least > 0.0 && (rises || is_short) {
             search.stage = SOLVE;
         } else if is_below || rises {
-            // All below T; or rising so close to T that the next interval must tell.
+            // All below 0; or rising so close to 0 that the next interval must tell.
             if search.high >= frame.leave {
                 return select(DOUBTED, MISSED, is_below);
             }
@@ -212,7 +161,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
             return WAITING;
         }
         count_iterations(1u);
-        let value = field_and_slope(frame, ray.direction, first, end, t);
+        let value = excess_and_slope(frame, ray.direction, first, end, t);
         if value.x >= 0.0 {
             search.high = t;
         } else {
@@ -235,4 +184,16 @@ fn found_at(t: f32, status: u32) -> u32 {
     search.high = t;
     found = status;
     return FOUND;
+}
+
+// What rounding and an early end can leave of F - T at a hit, and by how much rounding can move a ball's
+// v there: `certified.rs` for a stretch as long as the leaf's diagonal, from a point beside the leaf that
+// t stretches by 2^-10 of a float.
+fn residual() -> f32 {
+    return 0.0;
+}
+
+fn depth_error(leaf: Leaf, ray: Ray, t: f32, offset: vec3<f32>, radius: f32) -> f32 {
+    let diagonal = length(leaf.max - leaf.min);
+    return UNIT * (26.0 + (24.0 * diagonal + 0x1p-8f * t) / radius);
 }

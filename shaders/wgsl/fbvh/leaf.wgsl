@@ -5,10 +5,11 @@
 
 #import metaball::field::{contribution, depth_below_rim, offset_at}
 #import metaball::hit::{HIT, INSIDE}
-#import metaball::fbvh::structure::{is_empty, leaves, lists, through_box, Stretch}
+#import metaball::fbvh::structure::{is_empty, leaves, lists, through_box, Leaf, Stretch}
 #import metaball::fbvh::suspend::{can_go_on, spent}
+#import metaball::ray::{any_will_do, Ray}
 #import metaball::scene::{scene, supports}
-#import metaball::view::{view, NO_LIMIT, Ray}
+#import metaball::view::NO_LIMIT
 #import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test}
 
 // The FBVH projects all balls of a leaf, the modified BVH its own (sections 5.2 and 4).
@@ -66,9 +67,9 @@ struct Search {
 var<private> search: Search;
 
 // What one ball adds to the field at t.
-fn contribution_at(ball: u32, direction: vec3<f32>, t: f32) -> f32 {
+fn contribution_at(ball: u32, ray: Ray, t: f32) -> f32 {
     let support = supports[ball];
-    let offset = offset_at(view.eye - support.center, direction, t);
+    let offset = offset_at(ray.origin - support.center, ray.direction, t);
     return contribution(ball, depth_below_rim(offset, support.radius));
 }
 
@@ -78,13 +79,13 @@ fn field_above(ray: Ray, first: u32, end: u32, t: f32) -> f32 {
     var sum = 0.0;
     var entry = first;
     for (; entry + 4u <= end; entry += 4u) {
-        sum += contribution_at(lists[entry], ray.direction, t)
-            + contribution_at(lists[entry + 1u], ray.direction, t)
-            + contribution_at(lists[entry + 2u], ray.direction, t)
-            + contribution_at(lists[entry + 3u], ray.direction, t);
+        sum += contribution_at(lists[entry], ray, t)
+            + contribution_at(lists[entry + 1u], ray, t)
+            + contribution_at(lists[entry + 2u], ray, t)
+            + contribution_at(lists[entry + 3u], ray, t);
     }
     for (; entry < end; entry++) {
-        sum += contribution_at(lists[entry], ray.direction, t);
+        sum += contribution_at(lists[entry], ray, t);
     }
     spent += (end - first) / 4u + 4u;
     return sum - scene.threshold;
@@ -94,7 +95,7 @@ fn field_above(ray: Ray, first: u32, end: u32, t: f32) -> f32 {
 fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     let leaf = leaves[index];
     let end = leaves[index + 1u].first;
-    let in_box = through_box(leaf.min, leaf.max, inverse, ray.t_max);
+    let in_box = through_box(leaf.min, leaf.max, ray, inverse);
     var stretch = Stretch(0.0, ray.t_max);
     if clipped {
         stretch = in_box;
@@ -111,7 +112,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         count_leaf_test();
         count_balls(end - leaf.first);
         search = Search(PROJECT, leaf.first, stretch.enter, UNKNOWN, stretch.leave, -1.0, 0u);
-        // Where the box holds the eye, the eye may be inside the surface.
+        // Where the box holds the ray's start, that may be inside the surface.
         if clipped || in_box.enter == 0.0 {
             search.low_value = field_above(ray, leaf.first, end, stretch.enter);
             if search.low_value >= 0.0 {
@@ -124,7 +125,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     if search.stage == PROJECT {
         let projected = select(leaf.first + leaf.own, end, fitted);
         while search.next < projected {
-            let t = dot(supports[lists[search.next]].center - view.eye, ray.direction);
+            let t = dot(supports[lists[search.next]].center - ray.origin, ray.direction);
             if t > search.low && t < search.high {
                 if !can_go_on() {
                     return WAITING;
@@ -133,6 +134,9 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
                 if value >= 0.0 {
                     search.high = t;
                     search.high_value = value;
+                    if any_will_do() {
+                        return FOUND;
+                    }
                 }
             }
             search.next++;
@@ -206,4 +210,15 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         }
     }
     return FOUND;
+}
+
+// What rounding and an early end can leave of F - T at a hit, and by how much rounding can move a ball's
+// v there: an offset is wrong by the roundings of a difference, a product and a sum; three squares, two
+// sums, a square, a division and a difference follow.
+fn residual() -> f32 {
+    return tolerance * scene.threshold;
+}
+
+fn depth_error(leaf: Leaf, ray: Ray, t: f32, offset: vec3<f32>, radius: f32) -> f32 {
+    return 0x1p-23f * (6.0 + 4.0 * (2.0 * t + length(offset)) / radius);
 }

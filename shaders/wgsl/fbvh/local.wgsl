@@ -1,14 +1,14 @@
-// A ray seen from beside a leaf, so that distance from the eye costs no digits.
+// A ray seen from beside a leaf, so that distance from its origin o costs no digits.
 //
-// The point o' = eye + base * direction beside the leaf is formed relative to the leaf's centre c as
-// (eye - c) + base * direction, two large numbers that nearly cancel. Every part of it is made
-// exact: c and the bulk of the eye lie on one coarse grid, so that their difference is exact;
+// The point o' = o + base * direction beside the leaf is formed relative to the leaf's centre c as
+// (o - c) + base * direction, two large numbers that nearly cancel. Every part of it is made
+// exact: c and the bulk of o lie on one coarse grid, so that their difference is exact;
 // direction and base are each cut into two numbers of twelve bits, so that their products are.
 // Nothing here depends on the order of operations beyond what is written: there is no compensation
 // to be optimised away.
 #define_import_path metaball::fbvh::local
 
-#import metaball::view::{view, Ray}
+#import metaball::ray::Ray
 
 struct Frame {
     // c, world space.
@@ -27,6 +27,8 @@ struct Frame {
     // stretch in the box, if it is not below that there.
     margin: f32,
     margin_length: f32,
+    // What rounding may take off either end of the stretch; it is added.
+    widening: f32,
 }
 
 // The ray's t at a local t.
@@ -41,24 +43,25 @@ fn upper_bits(x: vec3<f32>) -> vec3<f32> {
 }
 
 fn local_frame(ray: Ray, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>) -> Frame {
-    // A grid of 2^-21 to 2^-22 of the way from the eye to the leaf.
+    // A grid of 2^-21 to 2^-22 of the way from the origin to the leaf; where they are one point, finer
+    // than all floats of its size.
     let middle = 0.5 * low + 0.5 * high;
-    let way = abs(middle - view.eye);
+    let way = max(abs(middle - ray.origin), 0x1p-20f * abs(middle));
     let reach = max(max(way.x, way.y), max(way.z, 1e-30));
     let grid = bitcast<f32>(bitcast<u32>(reach) & 0x7f800000u) * 0x1p-21f;
     let center = floor(middle / grid) * grid;
-    let eye_high = floor(view.eye / grid) * grid;
-    let eye_low = view.eye - eye_high;
+    let start_high = floor(ray.origin / grid) * grid;
+    let start_low = ray.origin - start_high;
 
-    let base = dot(center - view.eye, ray.direction);
+    let base = dot(center - ray.origin, ray.direction);
     let base_parts = upper_bits(vec3(base, 0.0, 0.0));
     let base_high = base_parts.x;
     let base_low = upper_bits(vec3(base - base_high, 0.0, 0.0)).x;
     let direction_high = upper_bits(ray.direction);
     let direction_low = ray.direction - direction_high;
-    let bulk = (eye_high - center) + direction_high * base_high;
+    let bulk = (start_high - center) + direction_high * base_high;
     let middling = direction_low * base_high + direction_high * base_low;
-    let rest = direction_low * base_low + eye_low;
+    let rest = direction_low * base_low + start_low;
     let origin = (bulk + middling) + rest;
 
     let to_low = ((low - center) - origin) * inverse;
@@ -81,6 +84,6 @@ fn local_frame(ray: Ray, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>) ->
     return Frame(
         center, origin, base_high, base_low,
         max(enter - widening, start), last, enter - widening <= start && start <= last,
-        26.0 * UNIT, 12.0 * UNIT * longest + 2.1 * misplaced,
+        26.0 * UNIT, 12.0 * UNIT * longest + 2.1 * misplaced, widening,
     );
 }

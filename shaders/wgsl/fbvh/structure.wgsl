@@ -2,7 +2,7 @@
 // lists of balls. Twins: Node and Leaf of crates/fbvh/src/node.rs.
 #define_import_path metaball::fbvh::structure
 
-#import metaball::view::{view, Ray}
+#import metaball::ray::Ray
 
 struct Node {
     left_min: vec3<f32>,
@@ -51,16 +51,16 @@ fn inverse(direction: vec3<f32>) -> vec3<f32> {
     return 1.0 / select(direction, tiny, abs(direction) < vec3(1e-18));
 }
 
-// Where the ray from the eye passes through a box, between 0 and `t_max`. The far end is widened by
+// Where the ray passes through a box, between its ends. The far end is widened by
 // twice the three roundings of its computation (Ize 2013), so that no box is missed at its faces.
-fn through_box(low: vec3<f32>, high: vec3<f32>, inverse: vec3<f32>, t_max: f32) -> Stretch {
-    let to_low = (low - view.eye) * inverse;
-    let to_high = (high - view.eye) * inverse;
+fn through_box(low: vec3<f32>, high: vec3<f32>, ray: Ray, inverse: vec3<f32>) -> Stretch {
+    let to_low = (low - ray.origin) * inverse;
+    let to_high = (high - ray.origin) * inverse;
     let near = min(to_low, to_high);
     let far = max(to_low, to_high) * 1.0000008;
     return Stretch(
         max(max(near.x, near.y), max(near.z, 0.0)),
-        min(min(far.x, far.y), min(far.z, t_max)),
+        min(min(far.x, far.y), min(far.z, ray.t_max)),
     );
 }
 
@@ -76,18 +76,12 @@ struct Children {
 
 // Boxes on either side of a plane are visited by the side on which the ray comes, which no rounding
 // can mistake; boxes that overlap, in the order in which the ray enters them.
-fn children_along(
-    node: Node,
-    direction: vec3<f32>,
-    inverse: vec3<f32>,
-    t_max: f32,
-    parted: bool,
-) -> Children {
-    let left = through_box(node.left_min, node.left_max, inverse, t_max);
-    let right = through_box(node.right_min, node.right_max, inverse, t_max);
+fn children_along(node: Node, ray: Ray, inverse: vec3<f32>, parted: bool) -> Children {
+    let left = through_box(node.left_min, node.left_max, ray, inverse);
+    let right = through_box(node.right_min, node.right_max, ray, inverse);
     let left_ref = select(node.left, EMPTY, is_empty(left));
     let right_ref = select(node.right, EMPTY, is_empty(right));
-    let right_before = select(right.enter < left.enter, direction[node.axis] < 0.0, parted);
+    let right_before = select(right.enter < left.enter, ray.direction[node.axis] < 0.0, parted);
     if left_ref == EMPTY || (right_ref != EMPTY && right_before) {
         return Children(right_ref, left_ref, right.enter, left.enter);
     }

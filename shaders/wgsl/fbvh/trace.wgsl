@@ -1,5 +1,6 @@
-// Traces the rays of a view through a tree: the modified BVH or the Fitted BVH of Gourmel et al.
-// 2010. `trace` starts every ray, `resume` goes on with those that had to wait.
+// Traces rays through a tree: the modified BVH or the Fitted BVH of Gourmel et al. 2010, or the certified
+// tree. `trace` starts every ray, `resume` goes on with those that had to wait. Where rays come from, and
+// what they ask, is chosen by ray/primary.wgsl or ray/free.wgsl.
 
 #import metaball::color::{blend_add, blend_start, blend_write}
 #import metaball::fbvh::leaf
@@ -7,8 +8,11 @@
 #import metaball::fbvh::suspend
 #import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
 #import metaball::hit
+#import metaball::kernel::kernel_slope
+#import metaball::ray::{any_will_do, goes_on, has_ray, ray_of, Ray}
 #import metaball::scene::supports
-#import metaball::view::{in_picture, pixel_at, rays, view, Ray}
+#import metaball::strength::strength
+#import metaball::view::{in_picture, pixel_at}
 #import metaball::work::{count_node, write_work}
 
 // The tree's root: a node, a leaf, or EMPTY.
@@ -48,7 +52,7 @@ fn pop() -> u32 {
 
 fn children_of(node: structure::Node, ray: Ray, inverse: vec3<f32>) -> structure::Children {
     let parted = leaf::first_hit_ends();
-    return structure::children_along(node, ray.direction, inverse, ray.t_max, parted);
+    return structure::children_along(node, ray, inverse, parted);
 }
 
 // Walks from the root to a place where the ray waited, and pushes what was left to visit after it.
@@ -84,7 +88,7 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
                 best_t = leaf::search.high;
                 best_leaf = index;
                 best_status = leaf::status_found();
-                if leaf::first_hit_ends() {
+                if leaf::first_hit_ends() || any_will_do() {
                     return structure::EMPTY;
                 }
             }
@@ -119,22 +123,49 @@ fn write(pixel: u32, ray: Ray) {
         hit::write_hit(pixel, 0.0, -ray.direction, hit::UNDECIDED);
         return;
     }
+    if any_will_do() {
+        hit::write_hit(pixel, best_t, -ray.direction, best_status);
+        return;
+    }
     var slope = vec3(0.0);
+    // How far the field at the hit can be from T, and the least radius around.
+    var doubt = leaf::residual();
+    var smallest = 1e38;
     blend_start();
+    let found = structure::leaves[best_leaf];
     let end = structure::leaves[best_leaf + 1u].first;
-    for (var entry = structure::leaves[best_leaf].first; entry < end; entry++) {
+    for (var entry = found.first; entry < end; entry++) {
         let ball = structure::lists[entry];
         let support = supports[ball];
-        let offset = offset_at(view.eye - support.center, ray.direction, best_t);
+        let offset = offset_at(ray.origin - support.center, ray.direction, best_t);
         let v = depth_below_rim(offset, support.radius);
         slope += gradient(ball, v, offset, support.radius);
         blend_add(ball, contribution(ball, v));
+        if goes_on() && v > 0.0 {
+            let moved = leaf::depth_error(found, ray, best_t, offset, support.radius);
+            doubt += strength(ball) * kernel_slope(v) * moved;
+            smallest = min(smallest, support.radius);
+        }
     }
     blend_write(pixel);
     // Where the field is flat, as at a lone centre, the surface faces the ray.
     let steepness = length(slope);
     let normal = select(-ray.direction, -slope / steepness, steepness > 0.0);
-    hit::write_hit(pixel, best_t, normal, best_status);
+    if !goes_on() {
+        hit::write_hit(pixel, best_t, normal, best_status);
+        return;
+    }
+    let clearance = clearance(ray, doubt, steepness, smallest);
+    hit::write_hit_with_clearance(pixel, best_t, normal, best_status, clearance);
+}
+
+// What a start beside the hit must keep from it, along the normal: see "Rays that go on" in
+// crates/fbvh/src/gpu/mod.rs.
+fn clearance(ray: Ray, doubt: f32, steepness: f32, smallest: f32) -> f32 {
+    let flattest = max(steepness, doubt / (smallest * 0x1p-10f));
+    let end = ray.origin + best_t * ray.direction;
+    let rounding = 0x1p-23f * (length(ray.origin) + 2.0 * best_t + length(end));
+    return 4.0 * doubt / max(flattest, 1e-37) + 4.0 * rounding;
 }
 
 @compute @workgroup_size(8, 8)
@@ -143,7 +174,10 @@ fn trace(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let pixel = pixel_at(id.xy);
-    let ray = rays[pixel];
+    if !has_ray(pixel) {
+        return;
+    }
+    let ray = ray_of(pixel);
     let inverse = structure::inverse(ray.direction);
     best_t = ray.t_max;
     best_status = hit::MISS;
@@ -166,7 +200,7 @@ fn resume(@builtin(global_invocation_id) id: vec3<u32>) {
     if state.place == structure::EMPTY {
         return;
     }
-    let ray = rays[state.pixel];
+    let ray = ray_of(state.pixel);
     let inverse = structure::inverse(ray.direction);
     best_t = state.best_t;
     best_leaf = state.best_leaf;

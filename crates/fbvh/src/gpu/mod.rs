@@ -16,6 +16,28 @@
 //!
 //! *The stack cannot overflow*: the builder bounds the depth to what the shader has room for.
 //!
+//! # Rays that go on
+//! Free rays ([`RayTracer`]) run through the same shader; `ray/free.wgsl` hands them out, and
+//! `fbvh/falls.wgsl` stands in for `fbvh/rises.wgsl` where the way out of the solid is sought. A ray
+//! that goes on from a hit must start on the side of the surface that it leaves on, or it would find
+//! the surface it comes from; started too far off it would step over thin gaps. How far is enough
+//! follows from how far the hit can be from the surface, u = 2⁻²³:
+//!
+//! - *The field's doubt.* The search knows F at the hit to ± δ, δ = Σ qᵢk′(vᵢ)·δvᵢ plus what it was
+//!   content with (nothing for the certified tree, tolerance·T for the published ones). δvᵢ is the
+//!   margin that the search itself uses: u(26 + (24·D + 2⁻⁸·t)/Rᵢ) in a leaf of diagonal D. So the
+//!   surface is within δ/|∇F| of the hit. The start's own field is bounded with the same margins, to
+//!   ± δ again, and the gradient may halve on the way: 4δ/|∇F| along the normal put the start where
+//!   the search is certain of its side.
+//! - *Where the field is flat* a first-order step would be long, but there the field falls by
+//!   curvature, q·k″/R² per unit squared: δ of 2⁻¹⁶ is made good within 2⁻⁸R, and no step is longer.
+//! - *The point itself.* o + t·d errs by u(|o| + 2t + |o + t·d|) at the most, and the moved start is
+//!   rounded again: twice that, and twice more since d is unit to rounding only.
+//!
+//! The sum is the hit's clearance ([`PackedHit::clearance`](metaball_core::PackedHit::clearance)). All
+//! its terms scale with the scene, and at the size of the world only with what f32 coordinates can
+//! tell apart; nothing is tuned. A start whose side is still in doubt is answered *undecided*.
+//!
 //! # Practice
 //! Pipelines are compiled at the first build and again only when a scene needs other ones: another
 //! kernel, strengths or colours where there were none.
@@ -28,13 +50,14 @@ use std::time::Instant;
 
 use metaball_core::Scene;
 use metaball_core::gpu::{
-    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderError, SceneBuffers, Specialization,
+    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, Question, RayBatch, RayTracer, RenderError,
+    SceneBuffers, Specialization,
 };
 
 use self::device_tree::DeviceTree;
-use self::pipelines::{Pipelines, Specialized};
+use self::pipelines::{Pipelines, Specialized, TracePipelines};
 use self::waiting::WaitingRoom;
-use crate::{Options, TraceOptions, Tree};
+use crate::{Kind, Options, TraceOptions, Tree};
 
 /// Dispatches after the first that a frame begins life with.
 const FIRST_RESUMES: u32 = 4;
@@ -125,28 +148,8 @@ impl IsoRenderer for Renderer {
         let (Some(pipelines), Some(built)) = (&self.pipelines, &self.built) else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
-        let targets = frame.targets();
-        let bind = |pass: &mut wgpu::ComputePass<'_>| {
-            pass.set_bind_group(0, targets.bind_group(), &[]);
-            pass.set_bind_group(1, built.scene.bind_group(), &[]);
-            pass.set_bind_group(2, built.tree.bind_group(), &[]);
-        };
-
-        built.waiting.clear(frame.encoder());
-        let (columns, rows) = (frame.view().width().div_ceil(8), frame.view().height().div_ceil(8));
-        frame.compute("trace", |pass| {
-            pass.set_pipeline(&pipelines.trace);
-            bind(pass);
-            pass.dispatch_workgroups(columns, rows, 1);
-        });
-        built.waiting.count(frame.encoder());
-        for _ in 0..self.resumes {
-            frame.compute("resume", |pass| {
-                pass.set_pipeline(&pipelines.resume);
-                bind(pass);
-                pass.dispatch_workgroups_indirect(built.waiting.arguments(), 0);
-            });
-        }
+        let rays = frame.targets().bind_group();
+        record(frame, built, &pipelines.primary, rays, ("trace", "resume"), self.resumes);
         Ok(())
     }
 
@@ -167,6 +170,71 @@ impl IsoRenderer for Renderer {
         }
         Ok(true)
     }
+
+    fn ray_tracer(&mut self) -> Option<&mut dyn RayTracer> {
+        Some(self)
+    }
+}
+
+impl RayTracer for Renderer {
+    fn answers(&self, question: Question) -> bool {
+        question != Question::Exit || self.options.kind() == Kind::Certified
+    }
+
+    fn encode_answers(
+        &mut self,
+        frame: &mut Frame<'_>,
+        batch: &RayBatch,
+        question: Question,
+    ) -> Result<(), RenderError> {
+        if !self.answers(question) {
+            let reason = "needed a certified tree to tell where rays leave the solid, found a \
+                          published one";
+            return Err(RenderError::Unsupported { method: self.name, reason: reason.to_owned() });
+        }
+        let (Some(pipelines), Some(built)) = (&mut self.pipelines, &self.built) else {
+            return Err(RenderError::NotBuilt { method: self.name });
+        };
+        let answering = pipelines.answering(frame.gpu(), question)?;
+        let labels = match question {
+            Question::FirstHit => ("first hits", "resume first hits"),
+            Question::AnyHit => ("any hits", "resume any hits"),
+            Question::Exit => ("exits", "resume exits"),
+        };
+        record(frame, built, answering, batch.bind_group(), labels, self.resumes);
+        Ok(())
+    }
+}
+
+/// One dispatch over the picture, and indirect ones over the rays that wait. `rays` is group 0.
+fn record(
+    frame: &mut Frame<'_>,
+    built: &Built,
+    pipelines: &TracePipelines,
+    rays: &wgpu::BindGroup,
+    (first, next): (&'static str, &'static str),
+    resumes: u32,
+) {
+    let bind = |pass: &mut wgpu::ComputePass<'_>| {
+        pass.set_bind_group(0, rays, &[]);
+        pass.set_bind_group(1, built.scene.bind_group(), &[]);
+        pass.set_bind_group(2, built.tree.bind_group(), &[]);
+    };
+    built.waiting.clear(frame.encoder());
+    let (across, down) = frame.targets().workgroups();
+    frame.compute(first, |pass| {
+        pass.set_pipeline(&pipelines.trace);
+        bind(pass);
+        pass.dispatch_workgroups(across, down, 1);
+    });
+    built.waiting.count(frame.encoder());
+    for _ in 0..resumes {
+        frame.compute(next, |pass| {
+            pass.set_pipeline(&pipelines.resume);
+            bind(pass);
+            pass.dispatch_workgroups_indirect(built.waiting.arguments(), 0);
+        });
+    }
 }
 
 #[cfg(test)]
@@ -178,13 +246,15 @@ mod tests {
 
     #[test]
     fn host_structs_are_their_wgsl_twins() {
-        for leaf_test in [&["fbvh/leaf"], &["fbvh/certified_leaf"]] {
+        let choices: [&[&str]; 2] =
+            [&["ray/primary", "fbvh/leaf"], &["ray/free", "fbvh/certified_leaf", "fbvh/falls"]];
+        for chosen in choices {
             let variant = Variant {
                 kernel: KernelModule::Power,
                 strengths: false,
                 colors: false,
                 counting: false,
-                chosen: leaf_test,
+                chosen,
             };
             let module = compose("fbvh/trace", &variant).expect("composes");
             let twin = |name| struct_layout(&module, name).expect("used by the shader");

@@ -1,10 +1,14 @@
-//! The two pipelines, and what they are specialised for.
+//! The pipelines, and what they are specialised for.
 
 use metaball_core::gpu::{
-    Gpu, RenderError, Specialization, compute_pipeline, frame_layout, scene_layout,
+    Binding, Gpu, Question, RenderError, Specialization, compute_pipeline, frame_layout, layout,
+    scene_layout,
 };
 
 use crate::{Kind, Reading, TraceOptions};
+
+/// Override constant of `ray/free.wgsl`: its `@id`.
+const QUESTION: &str = "2";
 
 /// What selects pipelines; when it stays the same, they stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,12 +25,20 @@ pub(super) struct Layouts {
     pub(super) tree: wgpu::BindGroupLayout,
 }
 
-/// `fbvh/trace.wgsl`, both entry points.
+/// `fbvh/trace.wgsl`, both entry points, for rays of one kind.
+pub(super) struct TracePipelines {
+    pub(super) trace: wgpu::ComputePipeline,
+    pub(super) resume: wgpu::ComputePipeline,
+}
+
+/// The pipelines of a scene: for primary rays at once, for each question of free rays when it is
+/// first asked.
 pub(super) struct Pipelines {
     pub(super) specialized: Specialized,
     pub(super) layouts: Layouts,
-    pub(super) trace: wgpu::ComputePipeline,
-    pub(super) resume: wgpu::ComputePipeline,
+    pub(super) primary: TracePipelines,
+    free: [Option<TracePipelines>; Question::ALL.len()],
+    options: TraceOptions,
 }
 
 impl Pipelines {
@@ -35,16 +47,48 @@ impl Pipelines {
         specialized: Specialized,
         options: &TraceOptions,
     ) -> Result<Self, RenderError> {
-        let Specialized { scene, kind, root } = specialized;
-        let scene = scene.choosing(match kind {
-            Kind::ModifiedBvh | Kind::Fitted => &["fbvh/leaf"],
-            Kind::Certified => &["fbvh/certified_leaf"],
-        });
+        let scene = &specialized.scene;
         let layouts = Layouts {
-            frame: frame_layout(gpu, &scene),
-            scene: scene_layout(gpu, &scene),
+            frame: frame_layout(gpu, scene),
+            scene: scene_layout(gpu, scene),
             tree: tree_layout(gpu),
         };
+        let primary = TracePipelines::new(gpu, &specialized, &layouts, options, None)?;
+        Ok(Self { specialized, layouts, primary, free: Default::default(), options: *options })
+    }
+
+    /// The pipelines of that question, made when it is first asked.
+    pub(super) fn answering(
+        &mut self,
+        gpu: &Gpu,
+        question: Question,
+    ) -> Result<&TracePipelines, RenderError> {
+        let place = &mut self.free[question as usize - 1];
+        let made = match place.take() {
+            Some(made) => made,
+            None => TracePipelines::new(
+                gpu,
+                &self.specialized,
+                &self.layouts,
+                &self.options,
+                Some(question),
+            )?,
+        };
+        Ok(place.insert(made))
+    }
+}
+
+impl TracePipelines {
+    /// For primary rays, or for the free rays that ask a question.
+    fn new(
+        gpu: &Gpu,
+        specialized: &Specialized,
+        layouts: &Layouts,
+        options: &TraceOptions,
+        question: Option<Question>,
+    ) -> Result<Self, RenderError> {
+        let Specialized { scene, kind, root } = *specialized;
+        let spec = scene.choosing(modules(kind, question));
         // Section 4 leaves no choice: the modified BVH is always read literally.
         let clipped = kind == Kind::Fitted && options.reading == Reading::Clipped;
         // The ids of the override constants in fbvh/leaf.wgsl and fbvh/trace.wgsl.
@@ -55,33 +99,37 @@ impl Pipelines {
             ("20", f64::from(options.max_iterations)),
         ];
         let mut constants = vec![("21", f64::from(root))];
+        constants.extend(question.map(|question| (QUESTION, f64::from(question as u32))));
         if kind != Kind::Certified {
             constants.extend(published);
         }
         let groups = [&layouts.frame, &layouts.scene, &layouts.tree];
         let pipeline = |label, entry| {
-            compute_pipeline(gpu, label, "fbvh/trace", entry, &scene, &groups, &constants)
+            compute_pipeline(gpu, label, "fbvh/trace", entry, &spec, &groups, &constants)
         };
-        let trace = pipeline("fbvh trace", "trace")?;
-        let resume = pipeline("fbvh resume", "resume")?;
-        Ok(Self { specialized, trace, resume, layouts })
+        Ok(Self {
+            trace: pipeline("fbvh trace", "trace")?,
+            resume: pipeline("fbvh resume", "resume")?,
+        })
+    }
+}
+
+/// Where rays come from, and how leaves are searched.
+fn modules(kind: Kind, question: Option<Question>) -> &'static [&'static str] {
+    match (kind, question) {
+        (Kind::ModifiedBvh | Kind::Fitted, None) => &["ray/primary", "fbvh/leaf"],
+        (Kind::ModifiedBvh | Kind::Fitted, Some(_)) => &["ray/free", "fbvh/leaf"],
+        (Kind::Certified, None) => &["ray/primary", "fbvh/certified_leaf", "fbvh/rises"],
+        (Kind::Certified, Some(Question::Exit)) => {
+            &["ray/free", "fbvh/certified_leaf", "fbvh/falls"]
+        }
+        (Kind::Certified, Some(_)) => &["ray/free", "fbvh/certified_leaf", "fbvh/rises"],
     }
 }
 
 /// Group 2: nodes, leaves, lists, and the pool of waiting rays.
 fn tree_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("fbvh tree"),
-        entries: &[storage(0, true), storage(1, true), storage(2, true), storage(3, false)],
-    })
+    let bindings =
+        [(0, Binding::Read), (1, Binding::Read), (2, Binding::Read), (3, Binding::Write)];
+    layout(gpu, "fbvh tree", &bindings)
 }

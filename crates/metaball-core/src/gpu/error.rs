@@ -51,6 +51,14 @@ pub enum RenderError {
         /// Hits given.
         found: usize,
     },
+    /// More rays than a batch has room for.
+    #[error("rays of a batch: needed at most {needed}, found {found}")]
+    RayCount {
+        /// Room.
+        needed: usize,
+        /// Rays given.
+        found: usize,
+    },
     /// A frame was begun on targets that another frame still uses.
     #[error("targets: needed no other frame on them, found one begun and not finished")]
     TargetsInUse,

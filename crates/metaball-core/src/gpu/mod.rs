@@ -24,6 +24,12 @@
 //! WGSL side of both is in the modules `core`, `kernel`, `strength`, `color` and `work` of
 //! `metaball-shaders`. A pass over the picture has [`Targets::workgroups`] of [`TILE`]² invocations.
 //!
+//! # Other rays
+//! What a method promises is first hits of primary rays. A method that can follow any ray says so with
+//! [`IsoRenderer::ray_tracer`]: it answers the questions of a [`RayBatch`], one ray a pixel, each with a
+//! start of its own. Its shaders are the same but for the module that hands out rays
+//! (`ray/primary.wgsl`, `ray/free.wgsl`), so that primary rays pay nothing for it.
+//!
 //! # Two kinds of trouble
 //! *Incomplete*: a pool, list or pass limit was too small for this frame. Shaders count the rays that
 //! have no final answer, and say how much room they would have needed ([`FrameStatus`]);
@@ -40,6 +46,7 @@
 //! are checked when it is submitted.
 
 mod adapter;
+mod batch;
 mod clock;
 mod device;
 mod error;
@@ -57,13 +64,14 @@ mod tests;
 mod work;
 
 pub use adapter::{AdapterChoice, AdapterReport, GpuError};
+pub use batch::{FreeRay, Question, RayBatch, RayTracer};
 pub use device::Gpu;
 pub use error::RenderError;
 pub use frame::{Frame, FrameReport, FrameStatus, RenderAttachments};
 pub use layout::{Binding, Resource, group as bind_group, layout as bind_group_layout};
 pub use pipeline::{Shader, Specialization, compute_pipeline, pipeline_layout};
 pub use rays::PackedRay;
-pub use renderer::{BuildReport, IsoRenderer, render};
+pub use renderer::{BuildReport, IsoRenderer, render, render_with};
 pub use scene_buffers::{SceneBuffers, SceneHeader, scene_layout};
 pub use shade::{Image, Picture, Shaded, Shading, ValueRange};
 pub use targets::{TILE, Targets, ViewUniform, frame_layout};

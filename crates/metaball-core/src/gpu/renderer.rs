@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{Frame, FrameReport, FrameStatus, Gpu, RenderError, Targets};
+use super::{Frame, FrameReport, FrameStatus, Gpu, RayTracer, RenderError, Targets};
 use crate::{Scene, View};
 
 /// One way of finding, for every primary ray, the first point where the field reaches the
@@ -52,6 +52,12 @@ pub trait IsoRenderer {
         let _ = (gpu, status);
         Ok(false)
     }
+
+    /// The method as a tracer of arbitrary rays through the scene built last; `None` where it finds
+    /// primary hits alone.
+    fn ray_tracer(&mut self) -> Option<&mut dyn RayTracer> {
+        None
+    }
 }
 
 /// What building a scene took.
@@ -85,10 +91,25 @@ pub fn render(
     targets: &Targets,
     view: &View,
 ) -> Result<FrameReport, RenderError> {
+    render_with(gpu, renderer, targets, view, |renderer, frame| renderer.encode(frame))
+}
+
+/// As [`render`], with passes of the caller's: `encode` records them, once for each time that the
+/// frame is drawn.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_with(
+    gpu: &Gpu,
+    renderer: &mut dyn IsoRenderer,
+    targets: &Targets,
+    view: &View,
+    mut encode: impl FnMut(&mut dyn IsoRenderer, &mut Frame<'_>) -> Result<(), RenderError>,
+) -> Result<FrameReport, RenderError> {
     let mut redone = 0;
     loop {
         let mut frame = Frame::begin(gpu, targets, view)?;
-        renderer.encode(&mut frame)?;
+        encode(renderer, &mut frame)?;
         let report = frame.finish()?;
         if report.status.is_complete() {
             return Ok(report);

@@ -152,6 +152,11 @@ impl Targets {
         always.chain(optional).map(wgpu::Buffer::size).sum()
     }
 
+    /// The view of the last frame, one [`ViewUniform`].
+    pub fn view(&self) -> &wgpu::Buffer {
+        &self.view
+    }
+
     /// Group 0.
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         &self.bind_group

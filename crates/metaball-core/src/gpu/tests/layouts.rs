@@ -3,7 +3,7 @@
 use metaball_shaders::{StructLayout, Variant, compose, host_layout, struct_layout};
 
 use crate::gpu::spheres::CoreSphere;
-use crate::gpu::{FrameStatus, PackedRay, SceneHeader, ValueRange, ViewUniform, Work};
+use crate::gpu::{FrameStatus, FreeRay, PackedRay, SceneHeader, ValueRange, ViewUniform, Work};
 use crate::{PackedHit, Support};
 
 fn wgsl(module: &str, name: &str) -> StructLayout {
@@ -17,6 +17,10 @@ fn host_structs_are_their_twins() {
     let twins = [
         (wgsl("core/hit", "Hit"), host_layout!(PackedHit { normal, t, status })),
         (wgsl("core/view", "Ray"), host_layout!(PackedRay { direction, t_max })),
+        (
+            wgsl("ray/record", "FreeRay"),
+            host_layout!(FreeRay { origin, t_max, direction, question }),
+        ),
         (
             wgsl("core/view", "View"),
             host_layout!(ViewUniform { eye, width, right, height, up, half_pixel, forward }),

@@ -1,0 +1,289 @@
+//! The effects of the command `render`: their options, and a picture lit by them.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, bail, ensure};
+use bench_scenes::BenchScene;
+use clap::Args;
+use exr::prelude::{SpecificChannels, WritableImage};
+use glam::Vec3;
+use image::{DynamicImage, ImageReader};
+use metaball_core::gpu::{Gpu, IsoRenderer};
+use metaball_core::{NO_LIMIT, View};
+use metaball_light::{Effects, Environment, Film, Lamp, Occlusion, Panorama, Studio, Surface};
+
+use crate::console::Progress;
+use crate::measure::milliseconds;
+use crate::numbers::decimal;
+use crate::output::write_atomically;
+
+/// Surfaces that are seen through each other in a clear fluid unless asked otherwise.
+const FLUID_BOUNCES: u32 = 8;
+
+/// Options of light. Any of them asks for ray traced light in place of the shared Phong picture.
+#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[command(next_help_heading = "Light (methods that follow any ray: bvh, fbvh, fbvh-certified)")]
+pub struct LightOptions {
+    /// Lamps cast shadows.
+    #[arg(long)]
+    shadows: bool,
+    /// A lamp in this direction, world space; may be repeated. A key and a fill lamp that move with
+    /// the camera when left out.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    lamp: Vec<Vec3>,
+    /// Width of all lamps in degrees, for soft shadows; 0 for hard ones.
+    #[arg(long, value_name = "DEGREES", requires = "shadows")]
+    lamp_size: Option<f32>,
+    /// Rays from each surface point that feel for the surroundings.
+    #[arg(long, value_name = "RAYS", value_parser = clap::value_parser!(u32).range(1..))]
+    ambient_occlusion: Option<u32>,
+    /// Where occlusion rays end, scene units; they feel the whole scene when left out.
+    #[arg(long, value_name = "LENGTH", requires = "ambient_occlusion")]
+    occlusion_reach: Option<f32>,
+    /// Levels of mirror reflection.
+    #[arg(long, value_name = "LEVELS", conflicts_with = "refraction")]
+    reflections: Option<u32>,
+    /// Share of light mirrored at normal incidence, 0 to 1; 0.3 when left out.
+    #[arg(long, value_name = "SHARE", requires = "reflections")]
+    reflectivity: Option<f32>,
+    /// A clear fluid of this index of refraction, such as 1.33. Needs the certified tree.
+    #[arg(long, value_name = "INDEX")]
+    #[arg(conflicts_with_all = ["shadows", "ambient_occlusion", "cel"])]
+    refraction: Option<f32>,
+    /// What the fluid takes up of red, green and blue per scene unit; a little red over the scene's
+    /// radius when left out.
+    #[arg(long, value_name = "R,G,B", value_parser = vector, requires = "refraction")]
+    absorption: Option<Vec3>,
+    /// Surfaces seen through each other in the fluid; 8 when left out.
+    #[arg(long, value_name = "N", requires = "refraction")]
+    bounces: Option<u32>,
+    /// The surroundings: an equirectangular .hdr or .exr image. A generated sky when left out.
+    #[arg(long, value_name = "FILE")]
+    environment: Option<PathBuf>,
+    /// Bands of light in cel shading.
+    #[arg(long, value_name = "BANDS", value_parser = clap::value_parser!(u32).range(1..))]
+    cel: Option<u32>,
+    /// Paths of light a pixel; more than one smooths edges. 1 when left out, 64 in a fluid.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    samples: Option<u32>,
+    /// Which random numbers.
+    #[arg(long, value_name = "N")]
+    seed: Option<u32>,
+    /// Brighten the picture by powers of two.
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
+    exposure: Option<f32>,
+    /// Write the picture's linear light as an OpenEXR file too.
+    #[arg(long, value_name = "FILE")]
+    light_out: Option<PathBuf>,
+}
+
+/// Three numbers with commas between.
+fn vector(text: &str) -> Result<Vec3, String> {
+    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) if Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
+        _ => Err("needed three numbers such as 0.5,1,-0.3".to_owned()),
+    }
+}
+
+/// A picture in the light asked for, and how long it took.
+pub struct Lit {
+    /// Linear light.
+    pub film: Film,
+    /// Paths a pixel.
+    pub samples: u32,
+    /// Wall time of all samples.
+    pub ms: f64,
+    /// Rays of the last sample that the method could not answer.
+    pub doubts: u64,
+}
+
+impl LightOptions {
+    /// Whether any light is asked for.
+    pub fn is_asked(&self) -> bool {
+        *self != Self::default()
+    }
+
+    /// Exposes the picture. `renderer` has built the scene.
+    ///
+    /// # Errors
+    /// When an option makes no sense, a file is not readable, or the method cannot follow the rays.
+    pub fn expose(
+        &self,
+        gpu: &Gpu,
+        renderer: &mut dyn IsoRenderer,
+        bench: &BenchScene,
+        view: &View,
+    ) -> anyhow::Result<Lit> {
+        let fallback = if self.refraction.is_some() { 64 } else { 1 };
+        let samples = self.samples.unwrap_or(fallback);
+        let effects = self.effects(bench)?;
+        let seed = self.seed.unwrap_or_default();
+        let mut studio = Studio::new(gpu, &bench.scene, view, effects, samples, seed)?;
+        let progress = Progress::new(u64::from(samples));
+        let start = Instant::now();
+        for _ in 0..samples {
+            studio.expose(renderer)?;
+            progress.advance(1);
+        }
+        let ms = milliseconds(start.elapsed());
+        drop(progress);
+        Ok(Lit { film: studio.film()?, samples, ms, doubts: studio.doubts()? })
+    }
+
+    /// Powers of two by which the picture is brightened.
+    pub fn stops(&self) -> f32 {
+        self.exposure.unwrap_or_default()
+    }
+
+    /// Writes the linear light, if asked for.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_light(&self, film: &Film) -> anyhow::Result<()> {
+        let Some(path) = &self.light_out else { return Ok(()) };
+        let (width, height) = (film.width as usize, film.height as usize);
+        let pixel = |at: exr::math::Vec2<usize>| {
+            let light = film.light[at.y() * width + at.x()];
+            (light.x, light.y, light.z)
+        };
+        let mut file = Cursor::new(Vec::new());
+        exr::image::Image::from_channels((width, height), SpecificChannels::rgb(pixel))
+            .write()
+            .to_buffered(&mut file)
+            .with_context(|| format!("cannot encode {}", path.display()))?;
+        write_atomically(path, file.get_ref())
+    }
+
+    fn effects(&self, bench: &BenchScene) -> anyhow::Result<Effects> {
+        let base = Effects::phong(&bench.camera);
+        let diameter = at_least(0.0, "--lamp-size", self.lamp_size.unwrap_or_default())?;
+        let lamps = if self.lamp.is_empty() {
+            base.lamps.iter().map(|lamp| Lamp { diameter, ..*lamp }).collect()
+        } else {
+            // Together as bright as the key lamp that they replace.
+            let color = base.lamps[0].color / self.lamp.len() as f32;
+            self.lamp.iter().map(|&toward| Lamp { toward, diameter, color }).collect()
+        };
+        let reach = at_least(0.0, "--occlusion-reach", self.occlusion_reach.unwrap_or(NO_LIMIT))?;
+        Ok(Effects {
+            surface: self.surface(bench)?,
+            lamps,
+            shadows: self.shadows,
+            occlusion: self.ambient_occlusion.map(|rays| Occlusion { rays, reach }),
+            bounces: match self.refraction {
+                Some(_) => self.bounces.unwrap_or(FLUID_BOUNCES),
+                None => self.reflections.unwrap_or_default(),
+            },
+            environment: match &self.environment {
+                Some(path) => Environment::Panorama(read_panorama(path)?),
+                None => Environment::Sky,
+            },
+            bands: self.cel.unwrap_or_default(),
+        })
+    }
+
+    fn surface(&self, bench: &BenchScene) -> anyhow::Result<Surface> {
+        if let Some(refraction) = self.refraction {
+            ensure!(refraction > 0.0, "--refraction: needed an index above 0, found {refraction}");
+            let radius = 0.5 * bench.scene.bounds().extent().length();
+            let watery = Vec3::new(0.9, 0.28, 0.12) / radius.max(f32::MIN_POSITIVE);
+            let absorption = self.absorption.unwrap_or(watery);
+            ensure!(
+                absorption.min_element() >= 0.0,
+                "--absorption: needed numbers of at least 0, found {absorption}"
+            );
+            return Ok(Surface::Fluid { refraction, absorption });
+        }
+        let reflectivity = match self.reflections {
+            Some(_) => self.reflectivity.unwrap_or(0.3),
+            None => 0.0,
+        };
+        ensure!(
+            (0.0..=1.0).contains(&reflectivity),
+            "--reflectivity: needed a share from 0 to 1, found {reflectivity}"
+        );
+        Ok(Surface::Opaque { reflectivity })
+    }
+}
+
+fn at_least(least: f32, option: &str, found: f32) -> anyhow::Result<f32> {
+    ensure!(found >= least, "{option}: needed at least {least}, found {found}");
+    Ok(found)
+}
+
+/// Linear light from a file that holds linear light.
+fn read_panorama(path: &Path) -> anyhow::Result<Panorama> {
+    let name = path.display();
+    let image = ImageReader::open(path)
+        .with_context(|| format!("cannot open {name}"))?
+        .with_guessed_format()
+        .with_context(|| format!("cannot read {name}"))?
+        .decode()
+        .with_context(|| format!("cannot decode {name}"))?;
+    let (DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) = image else {
+        bail!("environment {name}: needed an .hdr or .exr image, found {:?}", image.color());
+    };
+    let image = image.into_rgb32f();
+    let light = image.pixels().map(|pixel| Vec3::from(pixel.0));
+    Ok(Panorama::new(image.width(), image.height(), light)?)
+}
+
+/// What the picture took, for the console.
+pub fn facts(lit: &Lit) -> String {
+    let each = decimal(lit.ms / f64::from(lit.samples));
+    let doubts = if lit.doubts == 0 {
+        String::new()
+    } else {
+        format!(", {} rays undecided in the last", lit.doubts)
+    };
+    format!("{} samples of {each} ms{doubts}", lit.samples)
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::{Overrides, load};
+
+    use super::*;
+    use crate::output::tests::scratch;
+
+    fn bench() -> BenchScene {
+        load("two-merging", &Overrides::default()).expect("known")
+    }
+
+    #[test]
+    fn vectors_are_three_numbers() {
+        assert_eq!(vector("1,-2, 0.5"), Ok(Vec3::new(1.0, -2.0, 0.5)));
+        assert!(vector("1,2").is_err() && vector("1,2,nan").is_err() && vector("a,b,c").is_err());
+    }
+
+    #[test]
+    fn nonsense_is_named() {
+        let message =
+            |options: LightOptions| options.effects(&bench()).expect_err("refused").to_string();
+        let refraction = LightOptions { refraction: Some(0.0), ..Default::default() };
+        assert!(message(refraction).starts_with("--refraction"));
+        let share = Some(2.0);
+        let mirror =
+            LightOptions { reflections: Some(1), reflectivity: share, ..Default::default() };
+        assert!(message(mirror).starts_with("--reflectivity"));
+        let path = Some(PathBuf::from("nowhere.hdr"));
+        let environment = LightOptions { environment: path, ..Default::default() };
+        assert_eq!(message(environment), "cannot open nowhere.hdr");
+    }
+
+    #[test]
+    fn light_goes_through_a_file() {
+        let folder = scratch("light");
+        let path = folder.join("light.exr");
+        let light = vec![Vec3::new(0.25, 4.0, 0.0), Vec3::splat(1e-3)];
+        let film = Film { width: 2, height: 1, light: light.clone() };
+        let options = LightOptions { light_out: Some(path.clone()), ..Default::default() };
+        options.write_light(&film).expect("written");
+        let panorama = read_panorama(&path).expect("readable");
+        std::fs::remove_dir_all(folder).expect("removable");
+        assert_eq!(Panorama::new(2, 1, light).expect("light"), panorama);
+    }
+}

@@ -1,0 +1,47 @@
+//! The picture as light.
+
+use glam::Vec3;
+use metaball_core::gpu::Image;
+
+/// Linear light of each pixel, row by row from the top left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Film {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Linear light with the primaries of sRGB; 1 is white.
+    pub light: Vec<Vec3>,
+}
+
+impl Film {
+    /// The picture with sRGB's transfer function (IEC 61966-2-1). `stops` brighten it by powers of two;
+    /// what is brighter than white is white.
+    pub fn develop(&self, stops: f32) -> Image {
+        let exposure = stops.exp2();
+        let pixel = |light: &Vec3| {
+            let byte = |channel: f32| (0.5 + 255.0 * encode(exposure * channel)) as u8;
+            [byte(light.x), byte(light.y), byte(light.z), 255]
+        };
+        let rgba = self.light.iter().flat_map(pixel).collect();
+        Image { width: self.width, height: self.height, rgba }
+    }
+}
+
+fn encode(linear: f32) -> f32 {
+    let light = linear.clamp(0.0, 1.0);
+    if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_is_encoded() {
+        // sRGB's 188 is half the light of white: 0.5028.
+        let film = Film { width: 2, height: 1, light: vec![Vec3::splat(0.5), Vec3::splat(2.0)] };
+        assert_eq!(film.develop(0.0).rgba, [188, 188, 188, 255, 255, 255, 255, 255]);
+        assert_eq!(film.develop(-2.0).rgba[4..7], [188; 3]);
+    }
+}

@@ -1,0 +1,387 @@
+//! A view with its effects on the device.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec3, Vec4};
+use metaball_core::gpu::{
+    Binding, Frame, FrameReport, Gpu, IsoRenderer, Question, RayBatch, RenderError, Shader,
+    Specialization, Targets, group, layout, render_with,
+};
+use metaball_core::{NO_LIMIT, Scene, View};
+
+use crate::{Effects, Environment, Film, Surface};
+
+/// What all passes are told: WGSL's `Settings` of `light/path.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+struct Settings {
+    absorption: Vec3,
+    refraction: f32,
+    reflectivity: f32,
+    bounces: u32,
+    shadows: u32,
+    occlusion_rays: u32,
+    occlusion_reach: f32,
+    lights: u32,
+    exposure: u32,
+    exposures: u32,
+    seed: u32,
+    bands: u32,
+    columns: u32,
+    rows: u32,
+}
+
+/// A lamp: WGSL's `LightSource` of `light/path.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+struct LightSource {
+    toward: Vec3,
+    size: f32,
+    color: Vec3,
+    padding: u32,
+}
+
+/// A pixel's path: WGSL's `Path` of `light/path.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+struct Path {
+    radiance: Vec3,
+    stage: u32,
+    throughput: Vec3,
+    feelers: u32,
+    place: Vec3,
+    clearance: f32,
+    normal: Vec3,
+    bounces: u32,
+    pending: Vec3,
+    padding: u32,
+    base: Vec3,
+    doubts: u32,
+}
+
+/// A view of a scene with its light, and the film that it is exposed on. 208 bytes a pixel.
+#[derive(Debug)]
+pub struct Studio<'a> {
+    gpu: &'a Gpu,
+    view: View,
+    effects: Effects,
+    settings: Settings,
+    targets: Targets,
+    paths: RayBatch,
+    feelers: RayBatch,
+    uniform: wgpu::Buffer,
+    path_states: wgpu::Buffer,
+    film: wgpu::Buffer,
+    groups: [wgpu::BindGroup; 3],
+    passes: Passes,
+}
+
+/// One compute pipeline for each step of a path.
+#[derive(Debug)]
+struct Passes {
+    start: wgpu::ComputePipeline,
+    surface: wgpu::ComputePipeline,
+    feel: wgpu::ComputePipeline,
+    develop: wgpu::ComputePipeline,
+}
+
+impl<'a> Studio<'a> {
+    /// Prepares a view. `samples` is how many will be exposed: a single one goes through the middles of
+    /// pixels, several are spread over them.
+    ///
+    /// # Errors
+    /// When the picture does not fit the adapter.
+    pub fn new(
+        gpu: &'a Gpu,
+        scene: &Scene,
+        view: &View,
+        effects: Effects,
+        samples: u32,
+        seed: u32,
+    ) -> Result<Self, RenderError> {
+        let has_colors = scene.colors().is_some();
+        let (width, height) = (view.width(), view.height());
+        let targets = Targets::new(gpu, width, height, has_colors, false)?;
+        let paths = RayBatch::new(gpu, &targets)?;
+        let feelers = RayBatch::new(gpu, &targets)?;
+        let none = wgpu::BufferUsages::empty();
+        let settings = settings(&effects, samples, seed);
+        let uniform = gpu.upload("light settings", &[settings], wgpu::BufferUsages::UNIFORM)?;
+        let lights: Vec<_> = effects.lamps.iter().map(LightSource::new).collect();
+        let lights = gpu.upload("lamps", &lights, none)?;
+        let pixels = view.pixels() as u64;
+        let path_states = gpu.storage("paths of light", pixels * size_of::<Path>() as u64, none)?;
+        let film = gpu.storage("film", pixels * size_of::<Vec4>() as u64, none)?;
+        let panorama = match &effects.environment {
+            Environment::Sky => None,
+            Environment::Panorama(panorama) => {
+                Some(gpu.upload("panorama", panorama.light(), none)?)
+            }
+        };
+
+        let mut in_view = vec![
+            (0, Binding::Uniform, targets.view()),
+            (1, Binding::Write, paths.rays()),
+            (2, Binding::Write, paths.hits()),
+        ];
+        in_view.extend(paths.colors().map(|colors| (4, Binding::Write, colors)));
+        let of_feelers =
+            vec![(0, Binding::Write, feelers.rays()), (1, Binding::Write, feelers.hits())];
+        let mut of_light = vec![
+            (0, Binding::Uniform, &uniform),
+            (1, Binding::Read, &lights),
+            (2, Binding::Write, &path_states),
+            (3, Binding::Write, &film),
+        ];
+        of_light.extend(panorama.as_ref().map(|image| (4, Binding::Read, image)));
+        let bound = [("paths", in_view), ("feelers", of_feelers), ("light", of_light)];
+        let layouts = bound.each_ref().map(|(label, buffers)| {
+            let bindings: Vec<_> = buffers.iter().map(|&(at, kind, _)| (at, kind)).collect();
+            layout(gpu, label, &bindings)
+        });
+        let groups = [0, 1, 2].map(|index: usize| {
+            let (label, buffers) = &bound[index];
+            let buffers: Vec<_> = buffers.iter().map(|&(at, _, buffer)| (at, buffer)).collect();
+            group(gpu, label, &layouts[index], &buffers)
+        });
+        let spec = Specialization { colors: has_colors, ..Specialization::without_balls() };
+        let spec = spec.choosing(match effects.environment {
+            Environment::Sky => &["light/sky"],
+            Environment::Panorama(_) => &["light/image"],
+        });
+        let passes = Passes::new(gpu, &spec, &layouts.each_ref())?;
+        Ok(Self {
+            gpu,
+            view: view.clone(),
+            effects,
+            settings,
+            targets,
+            paths,
+            feelers,
+            uniform,
+            path_states,
+            film,
+            groups: gpu.checked(|| groups)?,
+            passes,
+        })
+    }
+
+    /// Follows one more path a pixel through the scene that the renderer has built, and adds it to the
+    /// film.
+    ///
+    /// # Errors
+    /// When the method cannot follow the rays that the effects need, and whatever stops it.
+    pub fn expose(&mut self, renderer: &mut dyn IsoRenderer) -> Result<FrameReport, RenderError> {
+        let gpu = self.gpu;
+        gpu.checked(|| {
+            gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&self.settings));
+        })?;
+        let report = render_with(gpu, renderer, &self.targets, &self.view, |renderer, frame| {
+            self.encode(renderer, frame)
+        })?;
+        // What is added is a whole sample: an incomplete frame has been drawn again.
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            self.record(&mut pass, &self.passes.develop);
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
+        })?;
+        self.settings.exposure += 1;
+        Ok(report)
+    }
+
+    /// The mean of the samples so far; black before the first.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn film(&self) -> Result<Film, RenderError> {
+        let sums = self.gpu.read::<Vec4>(&self.film)?;
+        let light = sums.iter().map(|sum| sum.truncate() / sum.w.max(1.0)).collect();
+        Ok(Film { width: self.view.width(), height: self.view.height(), light })
+    }
+
+    /// Rays of the last sample that the method could not answer, to the last float.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn doubts(&self) -> Result<u64, RenderError> {
+        let paths = self.gpu.read::<Path>(&self.path_states)?;
+        Ok(paths.iter().map(|path| u64::from(path.doubts)).sum())
+    }
+
+    /// The last ray of each path, with its answer.
+    pub fn last_rays(&self) -> &RayBatch {
+        &self.paths
+    }
+
+    /// The last ray of each path that felt for light, with its answer.
+    pub fn last_feelers(&self) -> &RayBatch {
+        &self.feelers
+    }
+
+    fn encode(
+        &self,
+        renderer: &mut dyn IsoRenderer,
+        frame: &mut Frame<'_>,
+    ) -> Result<(), RenderError> {
+        let method = renderer.name();
+        let needed = self.effects.questions();
+        let Some(tracer) = renderer
+            .ray_tracer()
+            .filter(|tracer| needed.iter().all(|&question| tracer.answers(question)))
+        else {
+            let reason = format!(
+                "needed answers to rays that ask {needed:?} for these effects; the method has none"
+            );
+            return Err(RenderError::Unsupported { method, reason });
+        };
+        let own = self.settings.lights * self.settings.shadows + self.settings.occlusion_rays;
+        frame.compute("light start", |pass| self.record(pass, &self.passes.start));
+        for _ in 0..=self.effects.bounces {
+            tracer.encode_answers(frame, &self.paths, Question::FirstHit)?;
+            if needed.contains(&Question::Exit) {
+                tracer.encode_answers(frame, &self.paths, Question::Exit)?;
+            }
+            frame.compute("light surface", |pass| self.record(pass, &self.passes.surface));
+            if needed.contains(&Question::AnyHit) {
+                for _ in 0..own {
+                    tracer.encode_answers(frame, &self.feelers, Question::AnyHit)?;
+                    frame.compute("light feel", |pass| self.record(pass, &self.passes.feel));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&self, pass: &mut wgpu::ComputePass<'_>, pipeline: &wgpu::ComputePipeline) {
+        let (across, down) = self.targets.workgroups();
+        pass.set_pipeline(pipeline);
+        for (index, group) in self.groups.iter().enumerate() {
+            pass.set_bind_group(index as u32, group, &[]);
+        }
+        pass.dispatch_workgroups(across, down, 1);
+    }
+}
+
+impl Passes {
+    fn new(
+        gpu: &Gpu,
+        spec: &Specialization,
+        layouts: &[&wgpu::BindGroupLayout],
+    ) -> Result<Self, RenderError> {
+        let pipeline = |module, entry| {
+            Shader::new(gpu, module, module, spec)?.compute(gpu, module, entry, spec, layouts, &[])
+        };
+        Ok(Self {
+            start: pipeline("light/start", "start_paths")?,
+            surface: pipeline("light/surface", "meet_surface")?,
+            feel: pipeline("light/feel", "feel")?,
+            develop: pipeline("light/develop", "add_to_film")?,
+        })
+    }
+}
+
+impl Effects {
+    /// What rays must be able to ask for these effects.
+    fn questions(&self) -> Vec<Question> {
+        match self.surface {
+            Surface::Fluid { .. } => vec![Question::FirstHit, Question::Exit],
+            Surface::Opaque { .. } => {
+                let feels = self.occlusion.is_some() || self.shadows && !self.lamps.is_empty();
+                let feeler = feels.then_some(Question::AnyHit);
+                [Question::FirstHit].into_iter().chain(feeler).collect()
+            }
+        }
+    }
+}
+
+impl LightSource {
+    fn new(lamp: &crate::Lamp) -> Self {
+        Self {
+            toward: lamp.toward.normalize_or(Vec3::Y),
+            size: (0.5 * lamp.diameter).clamp(0.0, 90.0).to_radians().sin(),
+            color: lamp.color,
+            padding: 0,
+        }
+    }
+}
+
+fn settings(effects: &Effects, samples: u32, seed: u32) -> Settings {
+    let (reflectivity, refraction, absorption) = match effects.surface {
+        Surface::Opaque { reflectivity } => (reflectivity, 0.0, Vec3::ZERO),
+        Surface::Fluid { refraction, absorption } => (0.0, refraction, absorption),
+    };
+    let (columns, rows) = match &effects.environment {
+        Environment::Sky => (0, 0),
+        Environment::Panorama(panorama) => panorama.size(),
+    };
+    Settings {
+        absorption,
+        refraction,
+        reflectivity,
+        bounces: effects.bounces,
+        shadows: u32::from(effects.shadows),
+        occlusion_rays: effects.occlusion.map_or(0, |occlusion| occlusion.rays),
+        occlusion_reach: effects.occlusion.map_or(NO_LIMIT, |occlusion| occlusion.reach),
+        lights: effects.lamps.len() as u32,
+        exposure: 0,
+        exposures: samples,
+        seed,
+        bands: effects.bands,
+        columns,
+        rows,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use metaball_shaders::{KernelModule, Variant, compose, host_layout, struct_layout};
+
+    use super::*;
+
+    #[test]
+    fn host_structs_are_their_wgsl_twins() {
+        let variant = Variant {
+            kernel: KernelModule::Power,
+            strengths: false,
+            colors: false,
+            counting: false,
+            chosen: &["light/image"],
+        };
+        let module = compose("light/surface", &variant).expect("composes");
+        let twin = |name| struct_layout(&module, name).expect("used by the shader");
+        let settings = host_layout!(Settings {
+            absorption,
+            refraction,
+            reflectivity,
+            bounces,
+            shadows,
+            occlusion_rays,
+            occlusion_reach,
+            lights,
+            exposure,
+            exposures,
+            seed,
+            bands,
+            columns,
+            rows,
+        });
+        assert_eq!(settings, twin("Settings"));
+        assert_eq!(host_layout!(LightSource { toward, size, color, padding }), twin("LightSource"));
+        let path = host_layout!(Path {
+            radiance,
+            stage,
+            throughput,
+            feelers,
+            place,
+            clearance,
+            normal,
+            bounces,
+            pending,
+            padding,
+            base,
+            doubts,
+        });
+        assert_eq!(path, twin("Path"));
+    }
+}

@@ -1,0 +1,90 @@
+// What the passes of the crate metaball-light share: settings, lights, and one path of light a pixel,
+// followed from the eye backwards.
+#define_import_path metaball::effects::path
+
+#import metaball::free_ray::FreeRay
+#import metaball::hit::Hit
+
+// Twin of `Settings` in metaball-light.
+struct Settings {
+    // exp(-absorption * length) passes through the fluid; 1/scene unit, linear red, green and blue.
+    absorption: vec3<f32>,
+    // Index of refraction; 0 for an opaque surface.
+    refraction: f32,
+    // Share of light that a mirror takes up at normal incidence; 0 for none.
+    reflectivity: f32,
+    // Surfaces after the first that a path may meet.
+    bounces: u32,
+    // Whether lights cast shadows.
+    shadows: u32,
+    // Occlusion rays a surface point.
+    occlusion_rays: u32,
+    // Where occlusion rays end, scene units.
+    occlusion_reach: f32,
+    lights: u32,
+    // Number of this sample of the picture, and of all.
+    exposure: u32,
+    exposures: u32,
+    seed: u32,
+    // Bands of cel shading; 0 for smooth shades.
+    bands: u32,
+    // Columns and rows of the environment's image.
+    columns: u32,
+    rows: u32,
+}
+
+// Twin of `LightSource` in metaball-light: far away, seen from everywhere in the same direction.
+struct LightSource {
+    // Unit vector towards its middle, world space.
+    toward: vec3<f32>,
+    // Sine of the angle between its middle and its rim; 0 casts hard shadows.
+    size: f32,
+    // Linear light.
+    color: vec3<f32>,
+    padding: u32,
+}
+
+// Twin of `Path` in metaball-light.
+struct Path {
+    // Light that has reached the eye so far.
+    radiance: vec3<f32>,
+    // One of the stages below.
+    stage: u32,
+    // Share of what is found from here on that reaches the eye.
+    throughput: vec3<f32>,
+    // Feelers sent from this surface.
+    feelers: u32,
+    // The surface point, world space.
+    place: vec3<f32>,
+    clearance: f32,
+    // Unit, out of the solid.
+    normal: vec3<f32>,
+    // Surfaces met before this one.
+    bounces: u32,
+    // What arrives if the feeler on its way meets nothing.
+    pending: vec3<f32>,
+    padding: u32,
+    // The surface's own colour, linear.
+    base: vec3<f32>,
+    // Rays of this path that a method could not answer.
+    doubts: u32,
+}
+
+// The path has reached the eye in full.
+const GONE: u32 = 0u;
+// Its ray runs outside of the solid, or inside.
+const OUTSIDE: u32 = 1u;
+const WITHIN: u32 = 2u;
+// It stands on a surface, from which feelers are sent.
+const FEELING: u32 = 3u;
+
+// The path's own rays.
+@group(0) @binding(1) var<storage, read_write> path_rays: array<FreeRay>;
+// Rays that feel for lights and sky.
+@group(1) @binding(0) var<storage, read_write> feelers: array<FreeRay>;
+@group(1) @binding(1) var<storage, read_write> feeler_hits: array<Hit>;
+@group(2) @binding(0) var<uniform> settings: Settings;
+@group(2) @binding(1) var<storage, read> lights: array<LightSource>;
+@group(2) @binding(2) var<storage, read_write> paths: array<Path>;
+// Sums over samples: linear light, and the number of samples.
+@group(2) @binding(3) var<storage, read_write> film: array<vec4<f32>>;

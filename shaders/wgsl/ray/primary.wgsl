@@ -1,0 +1,32 @@
+// The rays of a view, as a method that follows any ray sees them: all start at the eye, all ask for
+// the first hit.
+#define_import_path metaball::ray
+
+#import metaball::view::{rays, view}
+
+// The points `origin + t * direction`, 0 <= t <= t_max.
+struct Ray {
+    origin: vec3<f32>,
+    t_max: f32,
+    direction: vec3<f32>,
+}
+
+// Whether the pixel has a ray to be answered.
+fn has_ray(pixel: u32) -> bool {
+    return true;
+}
+
+fn ray_of(pixel: u32) -> Ray {
+    let ray = rays[pixel];
+    return Ray(view.eye, ray.t_max, ray.direction);
+}
+
+// Whether anything solid on the ray answers it, first or not.
+fn any_will_do() -> bool {
+    return false;
+}
+
+// Whether rays go on from the hit, so that it must say how far the surface can be.
+fn goes_on() -> bool {
+    return false;
+}

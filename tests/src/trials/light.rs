@@ -1,0 +1,290 @@
+//! Rays that go on from a surface, as the effects of real pictures make them, against the oracle.
+//!
+//! The method puts a ray's start beside the surface, and all that counts is whether the answer is true
+//! of the ray as it was sent: a start on the wrong side would be seen as a ray that starts inside.
+
+use glam::Vec3;
+use libtest_mimic::{Failed, Trial};
+use metaball_core::gpu::{Gpu, Question, RayBatch};
+use metaball_core::reference::Oracle;
+use metaball_core::{Hit, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
+use metaball_light::{Effects, Environment, Lamp, Occlusion, Studio, Surface};
+
+use super::{load, on_gpu, renderer, view_of};
+
+/// Scenes whose effects are followed: merging and tangled ones, strengths, all at one scale; far from the
+/// origin; and radii of a thousandth beside one.
+const SCENES: [&str; 4] = ["random-200", "strengths-100", "far-from-origin", "radius-ratio-1000"];
+
+/// An effect, by what its last rays ask.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Shadow,
+    Occlusion,
+    Reflection { level: u32 },
+    Refraction { level: u32 },
+}
+
+const KINDS: [(&str, Kind); 6] = [
+    ("shadows", Kind::Shadow),
+    ("occlusion", Kind::Occlusion),
+    ("first_reflection", Kind::Reflection { level: 1 }),
+    ("third_reflection", Kind::Reflection { level: 3 }),
+    ("first_refraction", Kind::Refraction { level: 1 }),
+    ("third_refraction", Kind::Refraction { level: 3 }),
+];
+
+pub(super) fn trials() -> Vec<Trial> {
+    let mut trials = Vec::new();
+    for scene in SCENES {
+        for (name, kind) in KINDS {
+            let test = move |gpu: &'static Gpu| certified(gpu, scene, kind);
+            trials.push(on_gpu(format!("light::{scene}::{name}"), test));
+        }
+    }
+    for exponent in [-4, 7] {
+        let test = move |gpu: &'static Gpu| any_scale(gpu, exponent);
+        trials.push(on_gpu(format!("light::any_scale::1e{exponent}"), test));
+    }
+    trials.push(on_gpu("light::canary::wrong_answers".to_owned(), rejects_wrong_answers));
+    trials.push(on_gpu("light::canary::starts_on_the_surface".to_owned(), rejects_no_clearance));
+    trials.push(on_gpu("light::same_seed_same_picture".to_owned(), same_seed_same_picture));
+    trials.push(on_gpu("light::refused_without_rays".to_owned(), refused_without_rays));
+    trials
+}
+
+/// A free ray that was asked, and its answer.
+struct Asked {
+    ray: Ray,
+    question: Question,
+    hit: Hit,
+}
+
+/// The last rays of an effect's picture.
+fn follow(gpu: &Gpu, scene: &Scene, view: &View, kind: Kind) -> Result<Vec<Asked>, Failed> {
+    let mut effects = Effects::phong(view.camera());
+    match kind {
+        Kind::Shadow => {
+            effects.shadows = true;
+            effects.lamps = vec![Lamp { diameter: 2.0, ..Lamp::studio(view.camera())[0] }];
+        }
+        Kind::Occlusion => effects.occlusion = Some(Occlusion { rays: 2, reach: NO_LIMIT }),
+        Kind::Reflection { level } => {
+            effects.surface = Surface::Opaque { reflectivity: 0.3 };
+            effects.bounces = level;
+        }
+        Kind::Refraction { level } => {
+            effects.surface = Surface::Fluid { refraction: 1.33, absorption: Vec3::ZERO };
+            effects.bounces = level;
+        }
+    }
+    let mut renderer = renderer("fbvh-certified")?;
+    renderer.build(gpu, scene)?;
+    let mut studio = Studio::new(gpu, scene, view, effects, 1, 7)?;
+    studio.expose(renderer.as_mut())?;
+    match kind {
+        Kind::Shadow | Kind::Occlusion => answers(gpu, studio.last_feelers()),
+        Kind::Reflection { .. } | Kind::Refraction { .. } => answers(gpu, studio.last_rays()),
+    }
+}
+
+fn answers(gpu: &Gpu, batch: &RayBatch) -> Result<Vec<Asked>, Failed> {
+    let (rays, hits) = (batch.read_rays(gpu)?, batch.read_hits(gpu)?);
+    let asked = |(ray, hit): (metaball_core::gpu::FreeRay, Hit)| {
+        Some(Asked { ray: ray.ray(), question: ray.question()?, hit })
+    };
+    Ok(rays.into_iter().zip(hits).filter_map(asked).collect())
+}
+
+/// What was found among answers.
+#[derive(Debug, Default)]
+struct Findings {
+    asked: usize,
+    hits: usize,
+    ambiguous: usize,
+    undecided: usize,
+    starts_inside: usize,
+    violations: Vec<String>,
+}
+
+/// Holds each answer against the truth about the ray as it was sent.
+fn judge(scene: &Scene, asked: &[Asked]) -> Findings {
+    let oracle = Oracle::new(scene);
+    let mut findings = Findings { asked: asked.len(), ..Findings::default() };
+    for Asked { ray, question, hit } in asked {
+        findings.hits += usize::from(hit.is_hit());
+        if hit.verdict == Verdict::Undecided {
+            findings.undecided += 1;
+            continue;
+        }
+        let wrong = match question {
+            Question::Exit => exit_is_wrong(&oracle, scene, ray, hit),
+            Question::FirstHit | Question::AnyHit => {
+                let truth = oracle.first_hit(ray);
+                if truth.is_ambiguous() {
+                    findings.ambiguous += 1;
+                    continue;
+                }
+                findings.starts_inside += usize::from(truth.verdict == Verdict::Inside);
+                let is_late = *question == Question::FirstHit
+                    && hit.is_hit()
+                    && (f64::from(hit.t) - truth.t).abs() > 0.05 * f64::from(truth.smallest_radius);
+                (hit.is_hit() != (truth.verdict != Verdict::Miss) || is_late)
+                    .then(|| format!("needed {truth:?}"))
+            }
+        };
+        if let Some(needed) = wrong {
+            findings.violations.push(format!("{needed}, found {hit:?} of {question:?} {ray:?}"));
+        }
+    }
+    findings
+}
+
+/// An exit is where the field falls below T: it is above on the way there, and below beyond. The oracle
+/// finds the first sheet that a ray leaves.
+fn exit_is_wrong(oracle: &Oracle<'_>, scene: &Scene, ray: &Ray, hit: &Hit) -> Option<String> {
+    let truth = oracle.first_hit(ray);
+    if truth.is_ambiguous() {
+        return None;
+    }
+    let radius = scene.supports().iter().map(|ball| ball.radius).fold(f32::INFINITY, f32::min);
+    let is_wrong = match truth.verdict {
+        // Started outside: the space that is sought is there.
+        Verdict::Miss | Verdict::Hit => hit.t != 0.0,
+        _ => !hit.is_hit() || (f64::from(hit.t) - truth.leaves).abs() > 0.05 * f64::from(radius),
+    };
+    is_wrong.then(|| format!("needed an exit at {} of {truth:?}", truth.leaves))
+}
+
+fn pass(findings: &Findings) -> Result<(), Failed> {
+    let shown = findings.violations.iter().take(5).cloned().collect::<Vec<_>>().join("\n  ");
+    if !findings.violations.is_empty() {
+        let count = findings.violations.len();
+        return Err(format!("{count} of {} answers wrong\n  {shown}", findings.asked).into());
+    }
+    Ok(())
+}
+
+fn certified(gpu: &Gpu, scene: &'static str, kind: Kind) -> Result<(), Failed> {
+    let scene = load(scene)?;
+    let findings = judge(&scene.scene, &follow(gpu, &scene.scene, &view_of(&scene)?, kind)?);
+    pass(&findings)?;
+    sound(&findings)
+}
+
+/// There was something to test, and hardly a ray was lost to rounding: one in a hundred of those that
+/// graze, which are the first to be ambiguous.
+fn sound(findings: &Findings) -> Result<(), Failed> {
+    let lost = findings.undecided + findings.starts_inside;
+    if findings.asked < 10 || lost * 100 > findings.asked {
+        let Findings { asked, hits, ambiguous, undecided, starts_inside, .. } = findings;
+        return Err(format!(
+            "{asked} rays, {hits} hits, {ambiguous} ambiguous: {undecided} undecided and \
+             {starts_inside} on the wrong side"
+        )
+        .into());
+    }
+    Ok(())
+}
+
+/// The same scene in other units: shadows and reflections start on their side of the surface.
+fn any_scale(gpu: &Gpu, exponent: i32) -> Result<(), Failed> {
+    let bench = load("random-200")?;
+    let scale = 10.0f32.powi(exponent);
+    let scaled = |ball: Metaball| Metaball {
+        center: scale * ball.center,
+        radius: scale * ball.radius,
+        ..ball
+    };
+    let scene = &bench.scene;
+    let scene = Scene::new(scene.balls().map(scaled), scene.kernel(), scene.threshold())?;
+    let camera = bench.camera;
+    let eye = scale * camera.eye();
+    let ahead = eye + scale * camera.forward();
+    let degrees = 2.0 * camera.half_height().atan().to_degrees();
+    let camera = metaball_core::Camera::look_at(eye, ahead, camera.up(), degrees)?;
+    let view = View::new(camera, super::SIZE.0, super::SIZE.1)?;
+    for kind in [Kind::Shadow, Kind::Reflection { level: 1 }, Kind::Refraction { level: 2 }] {
+        let findings = judge(&scene, &follow(gpu, &scene, &view, kind)?);
+        pass(&findings)?;
+        sound(&findings)?;
+    }
+    Ok(())
+}
+
+fn rejects_wrong_answers(gpu: &Gpu) -> Result<(), Failed> {
+    let scene = load("random-200")?;
+    for kind in [Kind::Shadow, Kind::Reflection { level: 1 }, Kind::Refraction { level: 1 }] {
+        let mut asked = follow(gpu, &scene.scene, &view_of(&scene)?, kind)?;
+        let last = asked.last().ok_or("no rays")?.hit;
+        let mut carried = last;
+        for one in &mut asked {
+            std::mem::swap(&mut one.hit, &mut carried);
+        }
+        if pass(&judge(&scene.scene, &asked)).is_ok() {
+            return Err(format!("{kind:?}: answers to other rays passed").into());
+        }
+    }
+    Ok(())
+}
+
+/// Started at the hit itself, as many rays begin on the wrong side as on the right one.
+fn rejects_no_clearance(gpu: &Gpu) -> Result<(), Failed> {
+    let scene = load("random-200")?;
+    let view = view_of(&scene)?;
+    let picture = super::draw(gpu, renderer("fbvh-certified")?.as_mut(), &scene.scene, &view)?;
+    let found = picture.rays.iter().zip(&picture.hits).filter(|(_, hit)| hit.is_hit());
+    let oracle = Oracle::new(&scene.scene);
+    let starts: Vec<_> =
+        found.map(|(ray, hit)| Ray::new(ray.origin + hit.t * ray.direction, hit.normal)).collect();
+    let inside = oracle.first_hits(&starts);
+    let inside = inside.iter().filter(|truth| truth.verdict == Verdict::Inside).count();
+    if inside * 10 < starts.len() {
+        return Err(format!("{inside} of {} starts inside: clearance is idle", starts.len()).into());
+    }
+    Ok(())
+}
+
+fn same_seed_same_picture(gpu: &Gpu) -> Result<(), Failed> {
+    let bench = load("two-merging")?;
+    let view = view_of(&bench)?;
+    let film = |seed| {
+        let effects = Effects {
+            surface: Surface::Fluid { refraction: 1.33, absorption: Vec3::ONE },
+            bounces: 4,
+            environment: Environment::Sky,
+            ..Effects::phong(&bench.camera)
+        };
+        let mut renderer = renderer("fbvh-certified")?;
+        renderer.build(gpu, &bench.scene)?;
+        let mut studio = Studio::new(gpu, &bench.scene, &view, effects, 2, seed)?;
+        studio.expose(renderer.as_mut())?;
+        studio.expose(renderer.as_mut())?;
+        Ok::<_, Failed>(studio.film()?)
+    };
+    let first = film(1)?;
+    if first != film(1)? {
+        return Err("one seed, two pictures".into());
+    }
+    if first == film(2)? {
+        return Err("two seeds, one picture: nothing is sampled".into());
+    }
+    Ok(())
+}
+
+fn refused_without_rays(gpu: &Gpu) -> Result<(), Failed> {
+    let bench = load("two-merging")?;
+    let view = view_of(&bench)?;
+    let fluid = Surface::Fluid { refraction: 1.33, absorption: Vec3::ZERO };
+    for (method, surface) in [("illes", Surface::Opaque { reflectivity: 0.0 }), ("fbvh", fluid)] {
+        let effects = Effects { surface, ..Effects::phong(&bench.camera) };
+        let mut renderer = renderer(method)?;
+        renderer.build(gpu, &bench.scene)?;
+        let mut studio = Studio::new(gpu, &bench.scene, &view, effects, 1, 0)?;
+        match studio.expose(renderer.as_mut()) {
+            Err(error) if error.to_string().starts_with(&format!("method {method}: needed")) => {}
+            outcome => return Err(format!("{method}: needed a refusal, found {outcome:?}").into()),
+        }
+    }
+    Ok(())
+}
