@@ -11,7 +11,7 @@ use exr::prelude::{SpecificChannels, WritableImage};
 use glam::Vec3;
 use image::{DynamicImage, ImageReader};
 use metaball_core::gpu::{Gpu, IsoRenderer};
-use metaball_core::{NO_LIMIT, View};
+use metaball_core::{Hit, NO_LIMIT, View};
 use metaball_light::{Effects, Environment, Film, Lamp, Occlusion, Panorama, Studio, Surface};
 
 use crate::console::Progress;
@@ -21,6 +21,9 @@ use crate::output::write_atomically;
 
 /// Surfaces that are seen through each other in a clear fluid unless asked otherwise.
 const FLUID_BOUNCES: u32 = 8;
+
+/// Standard deviation of the depth cue's Gaussian, in parts of the picture's height.
+const DEPTH_CUE_WIDTH: f32 = 0.02;
 
 /// Options of light. Any of them asks for ray traced light in place of the shared Phong picture.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
@@ -65,6 +68,9 @@ pub struct LightOptions {
     /// Bands of light in cel shading.
     #[arg(long, value_name = "BANDS", value_parser = clap::value_parser!(u32).range(1..))]
     cel: Option<u32>,
+    /// Darken what lies behind something near, around it: depth-cued unsharp masking, such as 1.
+    #[arg(long, value_name = "STRENGTH")]
+    depth_cue: Option<f32>,
     /// Paths of light a pixel; more than one smooths edges. 1 when left out, 64 in a fluid.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     samples: Option<u32>,
@@ -106,7 +112,7 @@ impl LightOptions {
         *self != Self::default()
     }
 
-    /// Exposes the picture. `renderer` has built the scene.
+    /// Exposes the picture. `renderer` has built the scene; `hits` are the view's first hits.
     ///
     /// # Errors
     /// When an option makes no sense, a file is not readable, or the method cannot follow the rays.
@@ -116,6 +122,7 @@ impl LightOptions {
         renderer: &mut dyn IsoRenderer,
         bench: &BenchScene,
         view: &View,
+        hits: &[Hit],
     ) -> anyhow::Result<Lit> {
         let fallback = if self.refraction.is_some() { 64 } else { 1 };
         let samples = self.samples.unwrap_or(fallback);
@@ -130,7 +137,11 @@ impl LightOptions {
         }
         let ms = milliseconds(start.elapsed());
         drop(progress);
-        Ok(Lit { film: studio.film()?, samples, ms, doubts: studio.doubts()? })
+        let mut film = studio.film()?;
+        if let Some(strength) = self.depth_cue {
+            film.cue_depth(hits, DEPTH_CUE_WIDTH, strength);
+        }
+        Ok(Lit { film, samples, ms, doubts: studio.doubts()? })
     }
 
     /// Powers of two by which the picture is brightened.

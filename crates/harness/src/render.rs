@@ -131,8 +131,9 @@ fn on_adapter(gpu: &Gpu, order: &Order, bench: &BenchScene, view: &View) -> anyh
     let build = renderer.build(gpu, scene)?;
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?;
+    let hits = targets.read_hits(gpu)?;
     let (shaded, light) = if order.light.is_asked() {
-        let lit = order.light.expose(gpu, renderer.as_mut(), bench, view)?;
+        let lit = order.light.expose(gpu, renderer.as_mut(), bench, view, &hits)?;
         order.light.write_light(&lit.film)?;
         let image = lit.film.develop(order.light.stops());
         (Shaded { image, range: None }, Some(light::facts(&lit)))
@@ -140,7 +141,7 @@ fn on_adapter(gpu: &Gpu, order: &Order, bench: &BenchScene, view: &View) -> anyh
         (Shading::new(gpu).draw(&targets, view, scene, order.picture)?, None)
     };
     Ok(Drawn {
-        hits: targets.read_hits(gpu)?,
+        hits,
         shaded,
         light,
         build_ms: milliseconds(build.structure),

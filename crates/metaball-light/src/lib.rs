@@ -29,6 +29,7 @@
 //! [`Studio::new`] prepares a view with its [`Effects`], [`Studio::expose`] adds a sample, and
 //! [`Studio::film`] is the picture so far in linear light.
 
+mod depth_cue;
 mod effects;
 mod film;
 mod studio;

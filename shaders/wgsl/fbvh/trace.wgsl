@@ -84,8 +84,9 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
             if outcome == leaf::WAITING {
                 return place;
             }
-            if outcome == leaf::FOUND && leaf::search.high < best_t {
-                best_t = leaf::search.high;
+            // Where any hit will do, it may have been seen at the very end of the ray.
+            if outcome == leaf::FOUND && (leaf::search.high < best_t || any_will_do()) {
+                best_t = min(leaf::search.high, best_t);
                 best_leaf = index;
                 best_status = leaf::status_found();
                 if leaf::first_hit_ends() || any_will_do() {

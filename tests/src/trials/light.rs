@@ -5,7 +5,7 @@
 
 use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
-use metaball_core::gpu::{Gpu, Question, RayBatch};
+use metaball_core::gpu::{FreeRay, Gpu, Question, RayBatch, RenderError, Targets, render_with};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
 use metaball_light::{Effects, Environment, Lamp, Occlusion, Studio, Surface};
@@ -15,6 +15,8 @@ use super::{load, on_gpu, renderer, view_of};
 /// Scenes whose effects are followed: merging and tangled ones, strengths, all at one scale; far from the
 /// origin; and radii of a thousandth beside one.
 const SCENES: [&str; 4] = ["random-200", "strengths-100", "far-from-origin", "radius-ratio-1000"];
+
+const CERTIFIED: &str = "fbvh-certified";
 
 /// An effect, by what its last rays ask.
 #[derive(Debug, Clone, Copy)]
@@ -42,10 +44,17 @@ pub(super) fn trials() -> Vec<Trial> {
             trials.push(on_gpu(format!("light::{scene}::{name}"), test));
         }
     }
+    for method in ["bvh", "fbvh"] {
+        for (name, kind) in &KINDS[..3] {
+            let test = move |gpu: &'static Gpu| published(gpu, method, *kind);
+            trials.push(on_gpu(format!("light::{method}::{name}"), test));
+        }
+    }
     for exponent in [-4, 7] {
         let test = move |gpu: &'static Gpu| any_scale(gpu, exponent);
         trials.push(on_gpu(format!("light::any_scale::1e{exponent}"), test));
     }
+    trials.push(on_gpu("light::rays_from_anywhere".to_owned(), rays_from_anywhere));
     trials.push(on_gpu("light::canary::wrong_answers".to_owned(), rejects_wrong_answers));
     trials.push(on_gpu("light::canary::starts_on_the_surface".to_owned(), rejects_no_clearance));
     trials.push(on_gpu("light::same_seed_same_picture".to_owned(), same_seed_same_picture));
@@ -61,7 +70,13 @@ struct Asked {
 }
 
 /// The last rays of an effect's picture.
-fn follow(gpu: &Gpu, scene: &Scene, view: &View, kind: Kind) -> Result<Vec<Asked>, Failed> {
+fn follow(
+    gpu: &Gpu,
+    method: &str,
+    scene: &Scene,
+    view: &View,
+    kind: Kind,
+) -> Result<Vec<Asked>, Failed> {
     let mut effects = Effects::phong(view.camera());
     match kind {
         Kind::Shadow => {
@@ -78,7 +93,7 @@ fn follow(gpu: &Gpu, scene: &Scene, view: &View, kind: Kind) -> Result<Vec<Asked
             effects.bounces = level;
         }
     }
-    let mut renderer = renderer("fbvh-certified")?;
+    let mut renderer = renderer(method)?;
     renderer.build(gpu, scene)?;
     let mut studio = Studio::new(gpu, scene, view, effects, 1, 7)?;
     studio.expose(renderer.as_mut())?;
@@ -90,9 +105,8 @@ fn follow(gpu: &Gpu, scene: &Scene, view: &View, kind: Kind) -> Result<Vec<Asked
 
 fn answers(gpu: &Gpu, batch: &RayBatch) -> Result<Vec<Asked>, Failed> {
     let (rays, hits) = (batch.read_rays(gpu)?, batch.read_hits(gpu)?);
-    let asked = |(ray, hit): (metaball_core::gpu::FreeRay, Hit)| {
-        Some(Asked { ray: ray.ray(), question: ray.question()?, hit })
-    };
+    let asked =
+        |(ray, hit): (FreeRay, Hit)| Some(Asked { ray: ray.ray(), question: ray.question()?, hit });
     Ok(rays.into_iter().zip(hits).filter_map(asked).collect())
 }
 
@@ -167,9 +181,73 @@ fn pass(findings: &Findings) -> Result<(), Failed> {
 
 fn certified(gpu: &Gpu, scene: &'static str, kind: Kind) -> Result<(), Failed> {
     let scene = load(scene)?;
-    let findings = judge(&scene.scene, &follow(gpu, &scene.scene, &view_of(&scene)?, kind)?);
+    let findings =
+        judge(&scene.scene, &follow(gpu, CERTIFIED, &scene.scene, &view_of(&scene)?, kind)?);
     pass(&findings)?;
     sound(&findings)
+}
+
+/// Rays of the host's own, with starts and directions all over the scene, in the solid and out of it, some
+/// of them short.
+fn rays_from_anywhere(gpu: &Gpu) -> Result<(), Failed> {
+    let bench = load("random-200")?;
+    let (scene, view) = (&bench.scene, view_of(&bench)?);
+    let oracle = Oracle::new(scene);
+    let threshold = f64::from(scene.threshold());
+    let bounds = scene.bounds();
+    let rays: Vec<_> = (0..view.pixels())
+        .map(|index| {
+            let place = (index as f32 * Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5)).fract();
+            let toward = (index as f32 * Vec3::new(0.235_4, 0.915_7, 0.430_1)).fract() - 0.5;
+            let origin = bounds.min + place * bounds.extent();
+            let ray = Ray::new(origin, toward.normalize_or(Vec3::X));
+            if index % 3 == 0 && oracle.field(origin.as_dvec3()) > 1.01 * threshold {
+                return FreeRay::new(&ray, Question::Exit);
+            }
+            let t_max = if index % 2 == 0 { NO_LIMIT } else { 0.2 * bounds.extent().x };
+            let question = [Question::FirstHit, Question::AnyHit][index / 2 % 2];
+            FreeRay::new(&Ray { t_max, ..ray }, question)
+        })
+        .collect();
+
+    let mut renderer = renderer(CERTIFIED)?;
+    renderer.build(gpu, scene)?;
+    let targets = Targets::new(gpu, view.width(), view.height(), false, false)?;
+    let batch = RayBatch::new(gpu, &targets)?;
+    batch.write_rays(gpu, &rays)?;
+    render_with(gpu, renderer.as_mut(), &targets, &view, |renderer, frame| {
+        let name = renderer.name();
+        let reason = "needed a tracer of any ray, found none".to_owned();
+        let none = RenderError::Unsupported { method: name, reason };
+        let tracer = renderer.ray_tracer().ok_or(none)?;
+        Question::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, &batch, ask))
+    })?;
+    let asked = answers(gpu, &batch)?;
+    let exits = asked.iter().filter(|one| one.question == Question::Exit).count();
+    let findings = judge(scene, &asked);
+    if asked.len() != rays.len() || exits < 10 {
+        return Err(format!("{} rays of {}, {exits} exits", asked.len(), rays.len()).into());
+    }
+    pass(&findings)
+}
+
+/// A published tree may miss what its paper's assumption does not cover, as with primary rays. It may not
+/// see what is not there: neither a surface before the first, nor its own.
+fn published(gpu: &Gpu, method: &str, kind: Kind) -> Result<(), Failed> {
+    let scene = load("random-200")?;
+    let asked = follow(gpu, method, &scene.scene, &view_of(&scene)?, kind)?;
+    let found: Vec<_> = asked.into_iter().filter(|one| one.hit.is_hit()).collect();
+    let oracle = Oracle::new(&scene.scene);
+    let invented = |one: &&Asked| {
+        let truth = oracle.first_hit(&one.ray);
+        let is_early = f64::from(one.hit.t) < truth.t - 0.05 * f64::from(truth.smallest_radius);
+        !truth.is_ambiguous() && (truth.verdict == Verdict::Miss || is_early)
+    };
+    let count = found.iter().filter(invented).count();
+    if found.len() < 10 || count > 0 {
+        return Err(format!("{count} of {} hits are of nothing", found.len()).into());
+    }
+    Ok(())
 }
 
 /// There was something to test, and hardly a ray was lost to rounding: one in a hundred of those that
@@ -205,7 +283,7 @@ fn any_scale(gpu: &Gpu, exponent: i32) -> Result<(), Failed> {
     let camera = metaball_core::Camera::look_at(eye, ahead, camera.up(), degrees)?;
     let view = View::new(camera, super::SIZE.0, super::SIZE.1)?;
     for kind in [Kind::Shadow, Kind::Reflection { level: 1 }, Kind::Refraction { level: 2 }] {
-        let findings = judge(&scene, &follow(gpu, &scene, &view, kind)?);
+        let findings = judge(&scene, &follow(gpu, CERTIFIED, &scene, &view, kind)?);
         pass(&findings)?;
         sound(&findings)?;
     }
@@ -215,7 +293,7 @@ fn any_scale(gpu: &Gpu, exponent: i32) -> Result<(), Failed> {
 fn rejects_wrong_answers(gpu: &Gpu) -> Result<(), Failed> {
     let scene = load("random-200")?;
     for kind in [Kind::Shadow, Kind::Reflection { level: 1 }, Kind::Refraction { level: 1 }] {
-        let mut asked = follow(gpu, &scene.scene, &view_of(&scene)?, kind)?;
+        let mut asked = follow(gpu, CERTIFIED, &scene.scene, &view_of(&scene)?, kind)?;
         let last = asked.last().ok_or("no rays")?.hit;
         let mut carried = last;
         for one in &mut asked {
@@ -232,7 +310,7 @@ fn rejects_wrong_answers(gpu: &Gpu) -> Result<(), Failed> {
 fn rejects_no_clearance(gpu: &Gpu) -> Result<(), Failed> {
     let scene = load("random-200")?;
     let view = view_of(&scene)?;
-    let picture = super::draw(gpu, renderer("fbvh-certified")?.as_mut(), &scene.scene, &view)?;
+    let picture = super::draw(gpu, renderer(CERTIFIED)?.as_mut(), &scene.scene, &view)?;
     let found = picture.rays.iter().zip(&picture.hits).filter(|(_, hit)| hit.is_hit());
     let oracle = Oracle::new(&scene.scene);
     let starts: Vec<_> =
@@ -255,7 +333,7 @@ fn same_seed_same_picture(gpu: &Gpu) -> Result<(), Failed> {
             environment: Environment::Sky,
             ..Effects::phong(&bench.camera)
         };
-        let mut renderer = renderer("fbvh-certified")?;
+        let mut renderer = renderer(CERTIFIED)?;
         renderer.build(gpu, &bench.scene)?;
         let mut studio = Studio::new(gpu, &bench.scene, &view, effects, 2, seed)?;
         studio.expose(renderer.as_mut())?;
