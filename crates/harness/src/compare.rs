@@ -6,6 +6,7 @@ use anyhow::Context;
 use bench_scenes::{Overrides, load};
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
+use crate::conclusions::conclusions;
 use crate::console::{self, Progress, table};
 use crate::contest::{Contest, Rules, hold, steps};
 use crate::machine::{self, Machine};
@@ -76,6 +77,10 @@ pub fn compare(comparison: &Comparison) -> anyhow::Result<()> {
     let worked = records.records.iter().any(|record| record.status == Status::Ok);
     if worked {
         console::line(&results(&records.records));
+        let scenes: Vec<_> = contests.iter().map(|contest| contest.records.as_slice()).collect();
+        for sentence in conclusions(&scenes) {
+            console::line(&format!("\n{sentence}"));
+        }
     }
     for contest in &contests {
         tell(contest);

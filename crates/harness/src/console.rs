@@ -4,7 +4,7 @@
 use std::io::{IsTerminal, Write};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 /// One line of results. A reader who has seen enough and closed the pipe is no error.
 pub fn line(text: &str) {
@@ -37,14 +37,15 @@ impl Progress {
         Self { bar, watched }
     }
 
-    /// Says what begins now, and for about how long it will go on.
+    /// Says what begins now, and how long all is likely to take yet.
     pub fn stage(&self, text: String) {
         if self.watched {
             self.bar.set_message(text);
         } else if self.bar.position() == 0 {
             note(&text);
         } else {
-            note(&format!("{text} (about {} s left)", self.bar.eta().as_secs()));
+            let left = HumanDuration(self.bar.eta());
+            note(&format!("{text} ({left} left)"));
         }
     }
 

@@ -10,17 +10,17 @@ use metaball_core::{Hit, Verdict, View};
 use crate::console::Progress;
 use crate::heat::heat_map;
 use crate::measure::{Contender, Sampling, Timing, count_work, milliseconds, time_all, views};
-use crate::methods::Method;
 use crate::picture::encode_png;
 use crate::record::{Adapter, Measured, Record, Status, WorkPerRay};
 use crate::reference::Reference;
 use crate::score::{Accuracy, is_murky, score};
+use crate::setting::Setting;
 
 /// How to hold a contest.
 #[derive(Debug, Clone)]
 pub struct Rules {
     /// Who takes part.
-    pub methods: Vec<&'static Method>,
+    pub settings: Vec<Setting>,
     /// Pixels across and down.
     pub size: (u32, u32),
     /// How often each is timed.
@@ -68,7 +68,7 @@ const COMPARED_WHOLE_BALLS: usize = 10_000;
 
 /// Steps of progress that [`hold`] makes.
 pub fn steps(rules: &Rules) -> u64 {
-    (rules.methods.len() * (rules.sampling.most + 2) + 1) as u64
+    (rules.settings.len() * (rules.sampling.most + 2) + 1) as u64
 }
 
 /// Holds the contest. A method that cannot build or draw has a record that says why, and the others
@@ -96,12 +96,13 @@ pub fn hold(
     if !drawings.is_empty() {
         arena.judge(drawings, &mut outcomes, &mut contest)?;
     }
-    contest.records = outcomes.into_values().map(|outcome| arena.record(outcome)).collect();
+    contest.records =
+        outcomes.into_iter().map(|(place, outcome)| arena.record(place, outcome)).collect();
     Ok(contest)
 }
 
-/// What became of each method, by its place in the rules.
-type Outcomes = BTreeMap<usize, (&'static Method, Result<Measured, RenderError>)>;
+/// What became of each setting, by its place in the rules.
+type Outcomes = BTreeMap<usize, Result<Measured, RenderError>>;
 
 /// A method's first frame.
 struct Drawing {
@@ -137,12 +138,12 @@ impl<'a> Arena<'a> {
     /// Each method's first frame: the one to compare. It also warms the method up.
     fn draw(&self, outcomes: &mut Outcomes) -> anyhow::Result<Vec<Drawing>> {
         let mut drawings = Vec::new();
-        for (place, &method) in self.rules.methods.iter().enumerate() {
-            self.stage(method.name);
+        for (place, setting) in self.rules.settings.iter().enumerate() {
+            self.stage(&setting.to_string());
             let scene = &self.bench.scene;
             match Contender::prepare(
                 self.gpu,
-                (method.make)(false),
+                setting.renderer(false),
                 scene,
                 &self.targets,
                 &self.view,
@@ -151,7 +152,7 @@ impl<'a> Arena<'a> {
                     drawings.push(Drawing { place, contender, shaded: self.shade()? });
                 }
                 Err(error) => {
-                    outcomes.insert(place, (method, Err(error)));
+                    outcomes.insert(place, Err(error));
                 }
             }
             self.progress.advance(1);
@@ -182,18 +183,18 @@ impl<'a> Arena<'a> {
         for (((place, shaded), contender), timing) in
             places.into_iter().zip(shaded).zip(contenders).zip(timings)
         {
-            let method = self.rules.methods[place];
+            let setting = &self.rules.settings[place];
             let accuracy = score(&reference, &contender.hits)?;
             let heat = encode_png(&heat_map(&reference, &contender.hits))?;
             let outcome = timing.and_then(|timing| {
                 let work =
-                    count_work(self.gpu, (method.make)(true), &self.bench.scene, &self.view)?;
+                    count_work(self.gpu, setting.renderer(true), &self.bench.scene, &self.view)?;
                 Ok(measured(&contender, timing, accuracy, work))
             });
             if outcome.is_ok() {
-                contest.pictures.push(Pictures { method: method.name, shaded, heat });
+                contest.pictures.push(Pictures { method: setting.method.name, shaded, heat });
             }
-            outcomes.insert(place, (method, outcome));
+            outcomes.insert(place, outcome);
             self.progress.advance(1);
         }
         contest.remarks = remarks(&reference);
@@ -236,10 +237,8 @@ impl<'a> Arena<'a> {
         encode_png(&shaded.image)
     }
 
-    fn record(
-        &self,
-        (method, outcome): (&'static Method, Result<Measured, RenderError>),
-    ) -> Record {
+    fn record(&self, place: usize, outcome: Result<Measured, RenderError>) -> Record {
+        let setting = &self.rules.settings[place];
         let scene = &self.bench.scene;
         let (width, height) = self.rules.size;
         let (status, reason, measured) = match outcome {
@@ -254,8 +253,8 @@ impl<'a> Arena<'a> {
             balls: scene.len(),
             kernel: scene.kernel().to_string(),
             threshold: scene.threshold(),
-            method: method.name.to_owned(),
-            options: BTreeMap::new(),
+            method: setting.method.name.to_owned(),
+            options: setting.options.clone(),
             width,
             height,
             adapter: Adapter::from(self.gpu.report()),
@@ -325,7 +324,7 @@ mod tests {
     use metaball_core::gpu::{BuildReport, Frame, IsoRenderer};
 
     use super::*;
-    use crate::methods::METHODS;
+    use crate::methods::{METHODS, Method};
 
     /// A method that can do nothing.
     struct Unable;
@@ -357,7 +356,7 @@ mod tests {
         let Some(gpu) = Gpu::for_test() else { return };
         let bench = load("colors-100", &Overrides::default()).expect("known");
         let rules = Rules {
-            methods: vec![&UNABLE, &METHODS[0]],
+            settings: vec![(&UNABLE).into(), (&METHODS[0]).into()],
             size: (48, 36),
             sampling: Sampling::exactly(2),
             along_path: true,
@@ -380,7 +379,7 @@ mod tests {
         let Some(gpu) = Gpu::for_test() else { return };
         let bench = load("empty", &Overrides::default()).expect("known");
         let rules = Rules {
-            methods: vec![&UNABLE],
+            settings: vec![(&UNABLE).into()],
             size: (4, 3),
             sampling: Sampling::exactly(1),
             along_path: false,

@@ -8,7 +8,9 @@
 //! the effects of `render`. [`tables`] holds the tables of papers.
 //! [`cpu`] and [`shade`] draw where there is no adapter.
 
+pub mod chart;
 pub mod compare;
+pub mod conclusions;
 pub mod console;
 pub mod contest;
 pub mod cpu;
@@ -30,6 +32,7 @@ pub mod reference;
 pub mod render;
 pub mod report;
 pub mod score;
+pub mod setting;
 pub mod shade;
 pub mod stability;
 pub mod stats;

@@ -54,6 +54,14 @@ pub fn command() -> String {
     std::iter::once("metaball".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
+/// Whether an adapter of that name is a chip for computing that has next to no raster hardware:
+/// NVIDIA's from the A100 on, AMD's Instinct.
+pub fn has_little_raster(adapter: &str) -> bool {
+    const CHIPS: [&str; 9] =
+        ["A100", "A800", "H100", "H200", "H800", "GH200", "B100", "B200", "Instinct"];
+    CHIPS.iter().any(|chip| adapter.contains(chip))
+}
+
 /// A word as a POSIX shell reads it back.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);

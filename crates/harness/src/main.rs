@@ -14,11 +14,12 @@ use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
 use harness::render::{Device, Order, render};
+use harness::setting::Setting;
 use harness::stability::entrants::{Entrant, entrants};
 use harness::stability::{self, stability};
 use harness::tables::gourmel::plan::Extent;
 use harness::tables::{gourmel, illes, kanamori};
-use harness::{console, list};
+use harness::{chart, console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
 
@@ -101,6 +102,26 @@ enum Command {
         methods: Vec<Entrant>,
         /// Folder for index.html and records.json.
         #[arg(long, value_name = "DIR", default_value = "out/stability")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
+    },
+    /// Chart error against time over every method's knobs, and growth with count and density.
+    Chart {
+        /// Scenes for error against time: known names, generators, or files.
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+        /// Small scenes, small pictures: about a minute, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Begin anew where an interrupted run left its results.
+        #[arg(long)]
+        fresh: bool,
+        /// Pixels across and down; 640x480 when left out, 320x240 on a software adapter.
+        #[arg(long, value_name = "WxH")]
+        size: Option<Size>,
+        /// Folder for chart.html and chart.json.
+        #[arg(long, value_name = "DIR", default_value = "out/chart")]
         out: PathBuf,
         #[command(flatten)]
         device: AdapterArgs,
@@ -280,8 +301,9 @@ fn run(command: Command) -> anyhow::Result<()> {
             out,
             common,
         } => {
+            let methods = if every_method { METHODS.iter().collect() } else { methods };
             let rules = Rules {
-                methods: if every_method { METHODS.iter().collect() } else { methods },
+                settings: methods.into_iter().map(Setting::preset).collect(),
                 size: common.size(),
                 sampling: frames.map_or(Sampling::QUICK, |n| Sampling::exactly(n.into())),
                 along_path: path,
@@ -321,6 +343,13 @@ fn run(command: Command) -> anyhow::Result<()> {
         }
         Command::Stability { quick, cases, methods, out, device } => {
             stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })
+        }
+        Command::Chart { scenes, quick, fresh, size, out, device } => {
+            let extent =
+                if quick { chart::plan::Extent::Quick } else { chart::plan::Extent::Whole };
+            let size = size.map(|Size(width, height)| (width, height));
+            let adapter = device.choice();
+            chart::chart(&chart::Order { extent, scenes, size, adapter, out, fresh })
         }
         Command::Scenes => {
             list::scenes();

@@ -86,6 +86,8 @@ pub enum Status {
     Incomplete,
     /// The method or the adapter cannot do this scene.
     Unsupported,
+    /// Not tried: it was too slow on an easier scene.
+    Skipped,
 }
 
 impl fmt::Display for Status {
@@ -95,6 +97,7 @@ impl fmt::Display for Status {
             Self::Ok => "ok",
             Self::Incomplete => "incomplete",
             Self::Unsupported => "unsupported",
+            Self::Skipped => "skipped",
         })
     }
 }
@@ -198,7 +201,7 @@ impl WorkPerRay {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use serde_json::{Value, json};
 
     use super::*;
@@ -226,6 +229,18 @@ mod tests {
                 subset: "every pixel".to_owned(),
             },
             work: WorkPerRay::mean(&[]),
+        }
+    }
+
+    /// A record of four rays with that frame time and so many of them wrong.
+    pub(crate) fn measured_as(scene: &str, method: &str, ms: f64, wrong: usize) -> Record {
+        let mut measured = measured();
+        measured.frame_ms = Samples::new(vec![0.99 * ms, ms, 1.01 * ms]);
+        measured.accuracy.wrong_front = wrong;
+        Record {
+            scene: scene.to_owned(),
+            method: method.to_owned(),
+            ..record(Status::Ok, None, Some(measured))
         }
     }
 
@@ -284,7 +299,7 @@ mod tests {
         ];
         documented.sort_unstable();
         assert_eq!(keys(&value), documented);
-        for status in [Status::Ok, Status::Incomplete, Status::Unsupported] {
+        for status in [Status::Ok, Status::Incomplete, Status::Unsupported, Status::Skipped] {
             assert_eq!(json!(status), json!(status.to_string()));
         }
         assert_eq!(value["status"], json!("ok"));

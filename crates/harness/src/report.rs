@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use crate::conclusions::conclusions;
 use crate::contest::{Contest, Pictures};
 use crate::heat::{AMBIGUOUS, ERROR_RANGE, MISS, NOT_COMPARED, SCALE, UNDECIDED, WRONG};
 use crate::html::{base64, escape, fill};
@@ -31,12 +32,24 @@ fn page(records: &Records, contests: &[Contest], remarks: &[String]) -> String {
     let scenes: String = contests.iter().map(scene_section).collect();
     let parts = [
         ("style", STYLE.to_owned()),
+        ("conclusions", sentences(contests)),
         ("facts", facts(records)),
         ("remarks", remark_paragraphs(remarks)),
         ("rows", rows),
         ("scenes", scenes),
     ];
     fill(include_str!("report.html"), &parts)
+}
+
+/// Which method to use for what.
+fn sentences(contests: &[Contest]) -> String {
+    let records: Vec<_> = contests.iter().map(|contest| contest.records.as_slice()).collect();
+    conclusion_paragraphs(&conclusions(&records))
+}
+
+/// What a page says first.
+pub(crate) fn conclusion_paragraphs(sentences: &[String]) -> String {
+    sentences.iter().map(|text| format!("<p class=\"conclusion\">{}</p>\n", escape(text))).collect()
 }
 
 /// The look of all pages.
