@@ -17,7 +17,6 @@ use harness::render::{Device, Order, render};
 use harness::setting::Setting;
 use harness::stability::entrants::{Entrant, entrants};
 use harness::stability::{self, stability};
-use harness::tables::gourmel::plan::Extent;
 use harness::tables::{gourmel, illes, kanamori};
 use harness::{chart, console, list};
 use metaball_core::Kernel;

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 use metaball_core::gpu::{
     Binding, Frame, FrameReport, Gpu, IsoRenderer, Question, RayBatch, RenderError, Shader,
-    Specialization, Targets, group, layout, render_with,
+    Specialization, Targets, bind_group, bind_group_layout, render_with,
 };
 use metaball_core::{NO_LIMIT, Scene, View};
 
@@ -136,12 +136,12 @@ impl<'a> Studio<'a> {
         let bound = [("paths", in_view), ("feelers", of_feelers), ("light", of_light)];
         let layouts = bound.each_ref().map(|(label, buffers)| {
             let bindings: Vec<_> = buffers.iter().map(|&(at, kind, _)| (at, kind)).collect();
-            layout(gpu, label, &bindings)
+            bind_group_layout(gpu, label, &bindings)
         });
         let groups = [0, 1, 2].map(|index: usize| {
             let (label, buffers) = &bound[index];
             let buffers: Vec<_> = buffers.iter().map(|&(at, _, buffer)| (at, buffer)).collect();
-            group(gpu, label, &layouts[index], &buffers)
+            bind_group(gpu, label, &layouts[index], &buffers)
         });
         let spec = Specialization { colors: has_colors, ..Specialization::without_balls() };
         let spec = spec.choosing(match effects.environment {

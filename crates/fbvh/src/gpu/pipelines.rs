@@ -1,8 +1,8 @@
 //! The pipelines, and what they are specialised for.
 
 use metaball_core::gpu::{
-    Binding, Gpu, Question, RenderError, Specialization, compute_pipeline, frame_layout, layout,
-    scene_layout,
+    Binding, Gpu, Question, RenderError, Specialization, bind_group_layout, compute_pipeline,
+    frame_layout, scene_layout,
 };
 
 use crate::{Kind, Reading, TraceOptions};
@@ -131,5 +131,5 @@ fn modules(kind: Kind, question: Option<Question>) -> &'static [&'static str] {
 fn tree_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let bindings =
         [(0, Binding::Read), (1, Binding::Read), (2, Binding::Read), (3, Binding::Write)];
-    layout(gpu, "fbvh tree", &bindings)
+    bind_group_layout(gpu, "fbvh tree", &bindings)
 }

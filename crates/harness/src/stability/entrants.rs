@@ -64,7 +64,6 @@ fn variants(method: &str) -> Vec<Entrant> {
     };
     match method {
         "kanamori" => {
-            let distinct = Promise::Peeling { list_capacity: 14, distinct_points: true };
             let mut fine =
                 variant("kanamori+fine", "… clipped to 1e-6", promise_of("kanamori"), {
                     |name| {
@@ -75,14 +74,7 @@ fn variants(method: &str) -> Vec<Entrant> {
                 });
             // Half the threshold, times two radii, and ten roundings of a distance of a few radii.
             fine.terms.stop = Stop::Distance(1e-5);
-            vec![
-                fine,
-                variant("kanamori+distinct", "… distinct, K = 14", distinct, |name| {
-                    let options =
-                        kanamori_peel::Options { distinct_points: true, ..Default::default() };
-                    Box::new(kanamori_peel::Renderer::new(name, options, false))
-                }),
-            ]
+            vec![fine]
         }
         "illes-exact" => {
             let exact = Promise::Fragments { piece: illes_fraglist::Piece::Exact, room: 30 };
