@@ -39,5 +39,5 @@ pub(crate) fn come_near(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
         let half = 0.5 * share * bounds.extent();
         framing(&Aabb { min: center - half, max: center + half }, direction)
     };
-    [1.0, 0.5, 0.25].map(near).to_vec()
+    vec![framing(bounds, direction), near(0.5), near(0.25)]
 }

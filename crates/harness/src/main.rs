@@ -418,11 +418,11 @@ mod tests {
         };
         assert!(!quick && cases.is_empty() && methods.is_empty());
         assert_eq!(out, PathBuf::from("out/stability"));
-        let line = "metaball stability --quick --cases crowd,neck --methods kanamori+distinct";
+        let line = "metaball stability --quick --cases crowd,neck --methods kanamori+fine";
         let Ok(Command::Stability { quick, cases, methods, .. }) = parse(line) else {
             panic!("a legal command line");
         };
-        assert!(quick && cases.len() == 2 && methods[0].name == "kanamori+distinct");
+        assert!(quick && cases.len() == 2 && methods[0].name == "kanamori+fine");
     }
 
     #[test]
