@@ -13,7 +13,7 @@ const HELP: &str = "\
 cargo xtask test                 formatting, lints, all tests, packages and documentation
 cargo xtask setup                makes sure that a Vulkan adapter exists, and does nothing else
 cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` in release mode:
-                                 compare, stability, render, tables, scenes, methods;
+                                 compare, chart, stability, render, tables, scenes, methods;
                                  `help` lists them
 
 Both set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the

@@ -53,7 +53,7 @@ pub(super) fn touching(value: f64) -> Result<Shot, LoadError> {
 
 pub(super) fn two_levels(value: f64) -> Result<Shot, LoadError> {
     let scene = pair(0.5)?.with_kernel(Kernel::Wyvill).with_threshold(value as f32)?;
-    Ok((scene, looking(Vec3::new(0.0, 0.6, 5.0), Vec3::ZERO)?))
+    Ok((scene, looking(Vec3::new(0.7, 0.6, 5.0), Vec3::ZERO)?))
 }
 
 pub(super) fn effective_radii(value: f64) -> Result<Shot, LoadError> {

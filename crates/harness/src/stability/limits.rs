@@ -40,8 +40,15 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("distance", &[(1e4, Coarse)]),
         ],
     ),
-    // From 10⁶ radii away, an f32 distance is no better than a wrong front.
-    ("kanamori-robust", &[("distance", &[(1e4, Coarse), (1e6, Broken)])]),
+    // Undecided where it says so: an f32 field this close to T.
+    (
+        "kanamori-robust",
+        &[
+            ("distance", &[(1e5, Coarse)]),
+            ("threshold-near-zero", &[(1e-12, Told)]),
+            ("grazing", &[(0.01, Told), (1e-3, Right), (1e-5, Told), (1e-6, Right)]),
+        ],
+    ),
     // Section 3: a surface into which no centre projects is missed; f32 distances from afar.
     (
         "bvh",
@@ -51,6 +58,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("neck", &[(1e-3, Lost)]),
             ("sheet", &[(1e-3, Lost)]),
             ("nudged", &[(0.25, Lost)]),
+            ("effective-radii", &[(2.5, Lost), (3.0, Right)]),
         ],
     ),
     // The same.
@@ -61,6 +69,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("distance", &[(1e4, Coarse)]),
             ("neck", &[(1e-3, Lost)]),
             ("sheet", &[(1e-3, Lost)]),
+            ("effective-radii", &[(2.5, Lost), (3.0, Right)]),
         ],
     ),
     // Undecided where it says so; what is broken are defects: a residual above 1e-4 of T, and hits
@@ -68,7 +77,6 @@ const LIMITS: &[(&str, &[Limit])] = &[
     (
         "fbvh-certified",
         &[
-            ("coincident", &[(29.0, Broken)]),
             ("distance", &[(1e5, Coarse)]),
             ("radius-ratio", &[(1000.0, Broken), (1e6, Told)]),
             ("background", &[(1e5, Broken)]),
@@ -93,6 +101,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("image", &[(64.0, Lost)]),
             ("redrawn", &[(20.0, Lost)]),
             ("shuffled", &[(20.0, Lost)]),
+            ("effective-radii", &[(0.8, Lost), (1.0, Right), (1.5, Lost)]),
         ],
     ),
     // Section 4: a running sum that loses its digits away from the eye.
@@ -116,6 +125,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("image", &[(64.0, Lost)]),
             ("redrawn", &[(20.0, Lost)]),
             ("shuffled", &[(20.0, Lost)]),
+            ("effective-radii", &[(0.8, Lost), (1.0, Right), (1.25, Lost)]),
         ],
     ),
     // Degree six at most, and the same array.
@@ -134,6 +144,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("coincident", &[(13.0, Told)]),
             ("crowd", &[(15.0, Told)]),
             ("exponent", &[(4.0, Told)]),
+            ("effective-radii", &[(3.0, Told)]),
         ],
     ),
     // Degree six at most; from 10⁶ radii away, an f32 distance is no better than a wrong front.
@@ -157,6 +168,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("image", &[(64.0, Lost)]),
             ("redrawn", &[(20.0, Lost)]),
             ("shuffled", &[(20.0, Lost)]),
+            ("effective-radii", &[(0.8, Lost), (1.0, Right), (1.5, Lost)]),
         ],
     ),
 ];
