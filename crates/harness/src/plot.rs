@@ -82,14 +82,14 @@ pub enum Kind {
     Flagged,
 }
 
-/// Okabe and Ito's colours without yellow, which white paper swallows, and two greys.
-const COLORS: [&str; 9] = [
+/// Okabe and Ito's colours without yellow, which white paper swallows; then plum, grey and olive.
+const COLORS: [&str; 10] = [
     "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#7b3f7d", "#e69f00", "#56b4e9", "#000000",
-    "#7f7f7f",
+    "#7f7f7f", "#999933",
 ];
 
 /// Size of the plot in pixels of CSS, the legend at its right included.
-const SIZE: (f64, f64) = (760.0, 360.0);
+const SIZE: (f64, f64) = (860.0, 360.0);
 const LEFT: f64 = 70.0;
 const RIGHT: f64 = 500.0;
 const TOP: f64 = 26.0;
