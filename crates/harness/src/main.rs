@@ -17,7 +17,7 @@ use harness::render::{Device, Order, render};
 use harness::setting::Setting;
 use harness::stability::entrants::{Entrant, entrants};
 use harness::stability::{self, stability};
-use harness::tables::{gourmel, illes, kanamori};
+use harness::tables::{gourmel, illes, kanamori, peers};
 use harness::{chart, console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
@@ -83,7 +83,7 @@ enum Command {
         #[command(flatten)]
         common: Common,
     },
-    /// Measure a paper's tables anew, and set the printed numbers beside.
+    /// Measure a paper's tables anew, and set the printed numbers beside; or other programs.
     Tables {
         #[command(subcommand)]
         paper: Paper,
@@ -179,6 +179,21 @@ enum Paper {
         out: PathBuf,
         #[command(flatten)]
         device: AdapterArgs,
+    },
+    /// No paper: fbvh-certified on the CPU against POV-Ray's blob, time and error, power kernel α = 2.
+    Peers {
+        /// Known names, generators, or files; five scenes of 5,547 to 128,000 balls when left out.
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+        /// Hundreds of balls, small pictures: seconds, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Pixels across and down; 640x480 when left out.
+        #[arg(long, value_name = "WxH")]
+        size: Option<Size>,
+        /// Folder for peers.html and peers.json.
+        #[arg(long, value_name = "DIR", default_value = "out/tables")]
+        out: PathBuf,
     },
 }
 
@@ -339,6 +354,11 @@ fn run(command: Command) -> anyhow::Result<()> {
             };
             let size = size.map(|Size(width, height)| (width, height));
             illes::tables(&illes::Order { extent, size, adapter: device.choice(), out })
+        }
+        Command::Tables { paper: Paper::Peers { scenes, quick, size, out } } => {
+            let extent = if quick { peers::Extent::Quick } else { peers::Extent::Whole };
+            let size = size.map(|Size(width, height)| (width, height));
+            peers::tables(&peers::Order { scenes, extent, size, out })
         }
         Command::Stability { quick, cases, methods, out, device } => {
             stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })
