@@ -15,7 +15,7 @@ use anyhow::Context;
 use metaball_core::gpu::{AdapterChoice, Gpu};
 use serde::{Deserialize, Serialize};
 
-use self::compare::{Row, Table, WorkRow};
+use self::compare::{Density, Row, Table, WorkRow};
 use self::plan::{Extent, Quantity, Series};
 use self::run::{Run, Shoot};
 use self::settings::Setting;
@@ -67,6 +67,8 @@ pub struct Measurements {
     pub tables: Vec<Table>,
     /// Table 3.
     pub work_table: Vec<WorkRow>,
+    /// What the gain on the molecule depends on.
+    pub density: Density,
     /// Plots; their points name runs.
     pub series: Vec<Line>,
     /// Everything that was measured, once each.
@@ -113,6 +115,11 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
                 console::line(&format!("  {}, {}: {why}", row.scene, row.setting));
             }
         }
+    }
+    console::line(&format!("\n{}", compare::DENSITY_TITLE));
+    console::line(&console::table(&DENSITY_HEADINGS, &density_rows(&measurements.density)));
+    if let Some(why) = &measurements.density.why {
+        console::line(&format!("  {why}"));
     }
     let mut text = serde_json::to_string_pretty(&measurements).context("tables: no JSON")?;
     text.push('\n');
@@ -174,6 +181,7 @@ fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> anyhow::Result<Measuremen
         remarks,
         tables: compare::tables(extent, &runs),
         work_table: compare::work_table(extent, &runs),
+        density: compare::density(extent, &runs),
         series: lines(extent, &runs),
         runs,
     })
@@ -221,6 +229,20 @@ fn rows(table: &Table, runs: &[Run]) -> String {
     console::table(&headings, &table.rows.iter().map(row).collect::<Vec<_>>())
 }
 
+/// Columns of the table of densities.
+const DENSITY_HEADINGS: [&str; 5] =
+    ["scene", "supports", "times as fast", "kernels/ray saved", "nodes/ray saved"];
+
+/// Its rows, for the terminal and the page.
+fn density_rows(density: &Density) -> Vec<Vec<String>> {
+    let ratio = |ratio: Option<f64>| ratio.map_or_else(|| "–".to_owned(), decimal);
+    let row = |row: &compare::DensityRow| {
+        let ratios = [row.time, row.kernels, row.nodes].map(ratio);
+        [row.scene.clone(), format!("× {}", row.supports)].into_iter().chain(ratios).collect()
+    };
+    density.rows.iter().map(row).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -236,6 +258,7 @@ mod tests {
             }
         }
         assert!(measurements.work_table.iter().all(|row| row.measured.is_some()));
+        assert!(measurements.density.why.is_some(), "{:?}", measurements.density);
         assert!(measurements.series.iter().all(|line| line.points.len() >= 2));
         assert!(measurements.runs.iter().all(|run| run.frame_ms.samples.len() == 2));
 

@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::paper::{COUNTED, Counts, PRINTED, Printed, Rate};
-use super::plan::{Extent, Place};
+use super::plan::{Extent, Place, scaled_molecule};
 use super::run::Run;
+use super::settings::Setting;
 use crate::numbers::decimal;
 
 /// A factor beyond which a difference to the paper is explained.
@@ -55,6 +56,35 @@ pub struct WorkRow {
     pub measured: Option<[f64; 3]>,
     /// Why ours differ, where their ratio to the first row does notably.
     pub why: Option<String>,
+}
+
+/// Heading of [`Density`].
+pub const DENSITY_TITLE: &str = "Table 1, the molecule sparser and denser (not in the paper)";
+
+/// Not in the paper: what table 1's gain on the molecule depends on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Density {
+    /// How many times as fast the Fitted BVH is in the paper.
+    pub paper_ratio: f64,
+    /// The molecule with its supports scaled, the sparsest first.
+    pub rows: Vec<DensityRow>,
+    /// What follows from them.
+    pub why: Option<String>,
+}
+
+/// A row of [`Density`]: the modified BVH over the Fitted BVH.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DensityRow {
+    /// The scene, as it was loaded.
+    pub scene: String,
+    /// The factor on its supports.
+    pub supports: f32,
+    /// Ratio of frame times; `null`, as the others, when either failed.
+    pub time: Option<f64>,
+    /// Ratio of kernels a ray.
+    pub kernels: Option<f64>,
+    /// Ratio of nodes a ray.
+    pub nodes: Option<f64>,
 }
 
 /// The run of a setting on a scene.
@@ -113,6 +143,55 @@ pub fn work_table(extent: Extent, runs: &[Run]) -> Vec<WorkRow> {
         }),
     };
     COUNTED.iter().map(row).collect()
+}
+
+/// The molecule sparser and denser.
+pub fn density(extent: Extent, runs: &[Run]) -> Density {
+    let row = |&factor: &f32| {
+        let scene = scaled_molecule(factor);
+        let run = |setting: Setting| find(runs, &scene, &setting.name());
+        let pair = run(Setting::Modified).zip(run(Setting::Fitted));
+        let ratio = |of: fn(&Run) -> f64| pair.map(|(slow, fast)| of(slow) / of(fast));
+        DensityRow {
+            supports: factor,
+            time: ratio(Run::mean_ms),
+            kernels: ratio(Run::kernels_per_ray),
+            nodes: ratio(|run| run.work.nodes_per_ray),
+            scene,
+        }
+    };
+    let rows: Vec<_> = extent.support_factors().iter().map(row).collect();
+    let rate = |setting| {
+        let rows = || PRINTED.iter().flat_map(|table| table.rows);
+        let row = rows().find(|row| row.place == Place::Molecule && row.setting == setting);
+        row.map_or(f64::NAN, |row| row.fps)
+    };
+    let paper_ratio = rate(Setting::Fitted) / rate(Setting::Modified);
+    let why = rows.first().zip(rows.last()).and_then(|ends| explain_density(ends, paper_ratio));
+    Density { paper_ratio, rows, why }
+}
+
+fn explain_density(
+    (sparse, dense): (&DensityRow, &DensityRow),
+    paper_ratio: f64,
+) -> Option<String> {
+    let range = |of: fn(&DensityRow) -> Option<f64>| {
+        Some(format!("{} to {}", decimal(of(sparse)?), decimal(of(dense)?)))
+    };
+    let within = sparse.time? <= paper_ratio && paper_ratio <= dense.time?;
+    Some(format!(
+        "The gain goes with the kernels that are saved, and these with how many supports overlap, \
+         which the paper does not print: from supports × {} to × {}, kernels a ray fall by {} and \
+         frames are {} times as fast, {} the paper's {}; nodes a ray fall by {}, and what both \
+         trees share keeps the gain below the kernels saved.",
+        sparse.supports,
+        dense.supports,
+        range(|row| row.kernels)?,
+        range(|row| row.time)?,
+        if within { "among them" } else { "not among them" },
+        decimal(paper_ratio),
+        range(|row| row.nodes)?,
+    ))
 }
 
 /// Which of the three counters fall by another factor than in the paper.

@@ -1,8 +1,8 @@
 //! `gourmel.html`: the tables for a person to read.
 
-use super::compare::{Row, Table, WorkRow, find};
+use super::compare::{DENSITY_TITLE, Density, Row, Table, WorkRow, find};
 use super::run::Run;
-use super::{Line, Measurements, Point};
+use super::{DENSITY_HEADINGS, Line, Measurements, Point, density_rows};
 use crate::html::{escape, fill, section};
 use crate::numbers::{decimal, grouped};
 use crate::plot::line_plot;
@@ -24,7 +24,10 @@ pub(super) fn page(measurements: &Measurements) -> String {
         ("style", STYLE.to_owned()),
         ("facts", provenance(command, commit, &measurements.machine) + &facts),
         ("remarks", remark_paragraphs(&measurements.remarks)),
-        ("tables", tables + &work(&measurements.work_table) + &series),
+        (
+            "tables",
+            tables + &work(&measurements.work_table) + &density(&measurements.density) + &series,
+        ),
     ];
     fill(include_str!("page.html"), &parts)
 }
@@ -106,6 +109,17 @@ fn work(table: &[WorkRow]) -> String {
          <th>Balls<small>ours (paper)</small></th><th class=\"text\">Why they differ</th>";
     let rows: String = table.iter().map(row).collect();
     section("Table 3: work a ray on the tornado", headings, &rows)
+}
+
+fn density(density: &Density) -> String {
+    let headings: String = DENSITY_HEADINGS.iter().map(|name| format!("<th>{name}</th>")).collect();
+    let row = |cells: Vec<String>| {
+        let cells: String = cells.iter().map(|cell| format!("<td>{}</td>", escape(cell))).collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    let rows: String = density_rows(density).into_iter().map(row).collect();
+    let why = density.why.as_deref().map(escape).unwrap_or_default();
+    section(DENSITY_TITLE, &headings, &rows) + &format!("<p>{why}</p>\n")
 }
 
 fn plot(line: &Line, measurements: &Measurements) -> String {

@@ -55,6 +55,20 @@ pub enum Quantity {
     Split,
 }
 
+/// Between what to load and the factor on its supports, in the name of such a scene.
+const SCALED: &str = " × ";
+
+/// The name of the molecule with a factor on its balls' supports.
+pub fn scaled_molecule(factor: f32) -> String {
+    if factor == 1.0 { "molecule".to_owned() } else { format!("molecule{SCALED}{factor}") }
+}
+
+/// What to load for the name of a scene, and the factor on its supports.
+pub fn subject(name: &str) -> (&str, f32) {
+    let scaled = name.split_once(SCALED);
+    scaled.and_then(|(spec, factor)| Some((spec, factor.parse().ok()?))).unwrap_or((name, 1.0))
+}
+
 impl Extent {
     /// What to load for a scene of the paper.
     pub fn spec(self, place: Place) -> &'static str {
@@ -113,6 +127,14 @@ impl Extent {
         ]
     }
 
+    /// Factors on the supports of the molecule's balls that make it sparser and denser, rising.
+    pub fn support_factors(self) -> &'static [f32] {
+        match self {
+            Self::Whole => &[0.6, 0.8, 1.0, 1.25, 1.6],
+            Self::Quick => &[0.8, 1.0],
+        }
+    }
+
     /// Everything that the tables and plots need, each once: settings by scene.
     pub fn measurements(self) -> BTreeMap<String, BTreeSet<Setting>> {
         let rates = PRINTED.iter().flat_map(|table| table.rows);
@@ -121,9 +143,25 @@ impl Extent {
         let counted = counted.map(|setting| (self.spec(Place::Tornado4k).to_owned(), setting));
         let points = self.series().into_iter().flat_map(|series| series.points);
         let mut measurements = BTreeMap::<_, BTreeSet<_>>::new();
-        for (spec, setting) in rates.chain(counted).chain(points) {
+        let sizes = self.support_factors().iter().map(|&factor| scaled_molecule(factor));
+        let scaled = sizes.flat_map(|spec| {
+            [Setting::Modified, Setting::Fitted].map(|setting| (spec.clone(), setting))
+        });
+        for (spec, setting) in rates.chain(counted).chain(points).chain(scaled) {
             measurements.entry(spec).or_default().insert(setting);
         }
         measurements
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_how_supports_are_scaled() {
+        assert_eq!(subject(&scaled_molecule(1.25)), ("molecule", 1.25));
+        assert_eq!(subject(&scaled_molecule(1.0)), ("molecule", 1.0));
+        assert_eq!(subject("tornado:100:5"), ("tornado:100:5", 1.0));
     }
 }

@@ -7,10 +7,11 @@ use anyhow::Context;
 use bench_scenes::{Overrides, load};
 use fbvh::gpu::Renderer;
 use fbvh::{Options, Stats, TraceOptions, Tree};
-use metaball_core::Scene;
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets};
+use metaball_core::{Metaball, Scene};
 use serde::{Deserialize, Serialize};
 
+use super::plan::subject;
 use super::settings::Setting;
 use crate::console::Progress;
 use crate::measure::{Contender, count_work, milliseconds, time_all, views};
@@ -122,8 +123,9 @@ pub fn measure(
     shoot: Shoot,
     progress: &Progress,
 ) -> anyhow::Result<Vec<anyhow::Result<Run>>> {
-    let bench = load(spec, &Overrides::default())?;
-    let scene = &bench.scene;
+    let (loaded, factor) = subject(spec);
+    let bench = load(loaded, &Overrides::default())?;
+    let scene = &scaled(bench.scene, factor)?;
     let views = views(&bench.camera, &bench.path, &scene.bounds(), shoot.size, shoot.cameras)?;
     let colors = scene.colors().is_some();
     let targets = Targets::new(gpu, shoot.size.0, shoot.size.1, colors, false)?;
@@ -163,6 +165,19 @@ pub fn measure(
         })
     };
     Ok(prepared.into_iter().map(run).collect())
+}
+
+/// The scene with a factor on its balls' supports; the threshold stays, and so the solid swells.
+fn scaled(scene: Scene, factor: f32) -> anyhow::Result<Scene> {
+    if factor == 1.0 {
+        return Ok(scene);
+    }
+    let balls = scene.balls().map(|ball| Metaball { radius: factor * ball.radius, ..ball });
+    let resized = Scene::new(balls, scene.kernel(), scene.threshold())?;
+    Ok(match scene.colors() {
+        Some(colors) => resized.with_colors(colors.to_vec())?,
+        None => resized,
+    })
 }
 
 fn renderer(setting: Setting, counting: bool) -> Box<dyn IsoRenderer> {
