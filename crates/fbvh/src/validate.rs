@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use metaball_core::{Aabb, Support};
+use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::node::MAX_DEPTH;
@@ -123,7 +124,8 @@ impl Tree {
     /// Checks everything that tracing relies on: the order of nodes and leaves, boxes inside boxes,
     /// children apart in the Fitted BVH, who owns a ball, lists complete up to balls that do not
     /// matter to the surface in the leaf (sampled), the surface inside leaves (sampled: from each
-    /// ball's centre outwards), and solid leaves solid (sampled). Slow, in f64, and with neighbours found without the tree.
+    /// ball's centre outwards), and solid leaves solid (sampled). Slow, in f64, and with neighbours
+    /// found without the tree.
     ///
     /// # Errors
     /// The first flaw found.
@@ -297,16 +299,15 @@ impl Tree {
             .filter(|direction| *direction != DVec3::ZERO)
             .map(DVec3::normalize);
         let directions: Vec<DVec3> = directions.collect();
-        for ball in 0..field.ball_count() {
+        let lost = (0..field.ball_count()).into_par_iter().find_map_first(|ball| {
             let near = neighbors.of(field, ball);
-            for &direction in &directions {
-                let surface = surface_from(field, &near, ball, direction);
-                if let Some(point) = surface.filter(|&point| !self.holds(point)) {
-                    return Err(Flaw::SurfaceOutside { ball: ball as u32, point });
-                }
-            }
-        }
-        Ok(())
+            let mut points = directions
+                .iter()
+                .filter_map(|&direction| surface_from(field, &near, ball, direction));
+            let point = points.find(|&point| !self.holds(point))?;
+            Some(Flaw::SurfaceOutside { ball: ball as u32, point })
+        });
+        lost.map_or(Ok(()), Err)
     }
 
     fn check_solids(&self, field: &impl Field) -> Result<(), Flaw> {
@@ -348,10 +349,16 @@ impl Tree {
 fn surface_from(field: &impl Field, near: &[u32], ball: usize, direction: DVec3) -> Option<DVec3> {
     const STEPS: usize = 32;
     let Support { center, radius } = field.support(ball);
-    let at = |part: f64| center.as_dvec3() + part * f64::from(radius) * direction;
+    let (start, length) = (center.as_dvec3(), f64::from(radius));
+    let at = |part: f64| start + part * length * direction;
+    let near: Vec<u32> = near
+        .iter()
+        .copied()
+        .filter(|&other| meets(&field.support(other as usize), start, direction, length))
+        .collect();
     // A hair above T: a field that only just touches T at a point has no surface to lose.
     let threshold = f64::from(field.threshold()) * (1.0 + 1e-9);
-    let solid = |part: f64| value(field, near, at(part)) >= threshold;
+    let solid = |part: f64| value(field, &near, at(part)) >= threshold;
     if !solid(0.0) {
         return None;
     }
@@ -367,6 +374,15 @@ fn surface_from(field: &impl Field, near: &[u32], ball: usize, direction: DVec3)
         }
     }
     Some(at(inside))
+}
+
+/// Whether a support, grown by more than rounding, holds a point of the line from `start`, `length`
+/// long in a unit direction. Balls that do not add nothing there.
+fn meets(support: &Support, start: DVec3, direction: DVec3, length: f64) -> bool {
+    let to_center = support.center.as_dvec3() - start;
+    let nearest = to_center.dot(direction).clamp(0.0, length) * direction;
+    let reach = f64::from(support.radius) * (1.0 + ROUNDING);
+    to_center.distance_squared(nearest) <= reach * reach
 }
 
 /// The field of some balls at a point, f64.
