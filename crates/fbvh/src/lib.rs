@@ -47,8 +47,9 @@
 //!
 //! *The certified tree* ([`Kind::Certified`], not in the paper). Boxes are classified by exact ranges
 //! of the field: below T throughout and dropped, above T throughout and solid, or else a leaf with a
-//! list. A leaf is searched with bounds that no root escapes, and all rounding accounted for, so an
-//! answer is right or says that it is undecided.
+//! list. A leaf is searched with bounds that no root escapes, and all rounding accounted for: in f32
+//! by polynomials nowhere below the field, eight balls at a time, and in f64 by ranges where f32 cannot
+//! tell. So an answer is right or says that it is undecided.
 //!
 //! # Changes versus the paper
 //! - T/Σq stands for the printed T/n, which is wrong for strengths above 1. Σ and n run over own and
@@ -61,14 +62,18 @@
 //! - The secant search keeps its bracket, with halved weights (Illinois), and so converges when the
 //!   bracket holds more than one root; it may then return a later one.
 //! - A traversal step has a cost of its own, [`Options::traversal_cost`].
-//! - Depth is bounded ([`MAX_DEPTH`]), so that no stack can overflow.
+//! - Depth is bounded ([`MAX_DEPTH`]), so that no stack can overflow. Balls at one place, which no plane
+//!   tells apart, are one leaf.
+//! - Any-hit rays end at the paper's bracket, whose end is a point inside. Where a ray leaves the solid
+//!   the paper does not say; certified trees do.
 //!
 //! # Practice
-//! [`Options::fitted`] and [`Options::modified_bvh`] are the published structures. A tree is for one
-//! kernel and one threshold, since boxes and lists depend on them. Building is parallel, and the tree
-//! is the same bit for bit whatever the number of threads. Its memory is that of its lists, which
-//! grow with density; [`Tree::stats`] says how large they are, and [`Tree::validate`] lets a tree
-//! prove itself.
+//! [`Options::certified`] is what to take for pictures: its answers are right, and its lists do not grow
+//! with density. [`Options::fitted`] and [`Options::modified_bvh`] are the published structures. A
+//! tree is for one kernel and one threshold, since boxes and lists depend on them. Building is parallel,
+//! divides its lists in place, and makes the same tree bit for bit whatever the number of threads. A
+//! tree's memory is that of its lists, which in the published ones grow with density; [`Tree::stats`]
+//! says how large they are, and [`Tree::validate`] lets a tree prove itself.
 //!
 //! Rays ask three things: where they enter the solid ([`Tracer::first_hit`]), whether there is any
 //! ([`Tracer::any_hit`], for shadows), and where they leave it ([`Tracer::first_exit`], from inside, in
@@ -79,7 +84,7 @@
 //! too.
 //!
 //! # Features
-//! `gpu` adds the module `gpu`: both structures as [`metaball_core`] renderers on wgpu. Without it
+//! `gpu` adds the module `gpu`: all three structures as [`metaball_core`] renderers on wgpu. Without it
 //! nothing here knows of graphics cards, except that [`Node`] and [`Leaf`] are laid out for them.
 
 mod ball;

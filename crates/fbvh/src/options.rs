@@ -4,7 +4,7 @@ use glam::Vec3A;
 
 use crate::MAX_DEPTH;
 
-/// The two structures of the paper.
+/// The two structures of the paper, and one beside them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// Section 4: boxes around own balls, which overlap; a leaf projects its own balls only, and a
@@ -98,7 +98,8 @@ impl Cost {
     }
 }
 
-/// How to build a tree. Start from [`Options::fitted`] or [`Options::modified_bvh`].
+/// How to build a tree. Start from [`Options::certified`], [`Options::fitted`] or
+/// [`Options::modified_bvh`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Which structure.
