@@ -24,6 +24,20 @@ pub enum LoadError {
         /// Names of generators, separated by commas.
         generators: String,
     },
+    /// The words name a scene that does not move, or none.
+    #[error(
+        "{spec:?} does not move. Needed one of\n  a known name: {known}\n  a generator: {generators}, \
+         each as name:count[:density[:seed]]\n  a particle file for each frame, such as \
+         frame-%04d.xyz, or a scene file that names such particles\n  a .frames file"
+    )]
+    Still {
+        /// What was asked for.
+        spec: String,
+        /// Names of moving scenes, separated by commas.
+        known: String,
+        /// Names of generators that move, separated by commas.
+        generators: String,
+    },
     /// A generator's spec or an override cannot be used.
     #[error("{name}: needed {needed}, found {found}")]
     Parameter {

@@ -31,10 +31,10 @@ pub(crate) fn fluid_close_up() -> Result<Walk, LoadError> {
 }
 
 fn fluid_scene() -> Result<Scene, LoadError> {
-    let Some(made) = generate::from_spec("pool:120000:28")? else {
+    let Some(recipe) = generate::parse("pool:120000:28")? else {
         unreachable!("pool is a generator");
     };
-    Ok(made.scene.with_kernel(Kernel::Wyvill).with_threshold(THRESHOLD)?)
+    Ok(recipe.scene()?.scene.with_kernel(Kernel::Wyvill).with_threshold(THRESHOLD)?)
 }
 
 fn seen_around(shown: Aabb, scene: Scene) -> Walk {

@@ -18,6 +18,7 @@ pub(crate) enum FileKind {
     Pdb,
     Mmcif,
     Quantized,
+    Frames,
 }
 
 impl FileKind {
@@ -32,14 +33,21 @@ impl FileKind {
             "pdb" | "ent" => Some(Self::Pdb),
             "cif" | "mmcif" => Some(Self::Mmcif),
             "balls" => Some(Self::Quantized),
+            "frames" => Some(Self::Frames),
             _ => None,
         }
+    }
+
+    /// Whether it holds the particles of one scene.
+    pub(crate) fn is_particles(self) -> bool {
+        !matches!(self, Self::SceneFile | Self::Frames)
     }
 
     /// Reads the content of a particle file.
     pub(crate) fn parse(self, bytes: &[u8]) -> Result<Particles, Flaw> {
         match self {
             Self::SceneFile => Err(Flaw::needed("a particle file", "a scene file")),
+            Self::Frames => Err(Flaw::needed("the particles of one scene", "those of many frames")),
             Self::Table => table::parse(bytes),
             Self::Xyz => xyz::parse(text(bytes)?),
             Self::Pdb => molecule::parse_pdb(bytes),

@@ -166,6 +166,14 @@ const KNOWN: &[KnownScene] = &[
 ];
 
 impl KnownScene {
+    /// The generator's spec that it is a name for, if it is one.
+    pub(crate) fn spec(&self) -> Option<&'static str> {
+        match self.recipe {
+            Generated(spec) => Some(spec),
+            Data(..) | Figure(_) | Small(_) => None,
+        }
+    }
+
     /// Makes the scene.
     ///
     /// # Errors
@@ -173,9 +181,10 @@ impl KnownScene {
     pub fn scene(&self) -> Result<BenchScene, LoadError> {
         let (scene, camera, path) = match self.recipe {
             Generated(spec) => {
-                let Some(made) = generate::from_spec(spec)? else {
+                let Some(recipe) = generate::parse(spec)? else {
                     unreachable!("{spec} names a generator");
                 };
+                let made = recipe.scene()?;
                 (made.scene, made.camera, made.path)
             }
             Data(kind, file, bytes, seen_from) => {

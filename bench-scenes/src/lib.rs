@@ -2,7 +2,8 @@
 //!
 //! [`load()`] takes what a user types: a name of [`known()`], a generator's spec
 //! (`tornado:5000:40:7`), or the path of a scene file or a particle file. The [`cases()`] are scenes
-//! with a parameter that is turned until a method breaks. Nothing here knows of any method or GPU.
+//! with a parameter that is turned until a method breaks. [`Moving`] scenes have a scene for each frame.
+//! Nothing here knows of any method or GPU.
 //!
 //! ```
 //! use bench_scenes::{Overrides, load};
@@ -25,6 +26,9 @@ mod guard;
 mod known;
 mod load;
 mod molecule;
+mod moving;
+mod numbered;
+mod packed_frames;
 mod particles;
 mod quantized;
 mod random;
@@ -42,6 +46,9 @@ pub use generate::{Generator, generators};
 pub use known::{KnownScene, known};
 pub use load::{Overrides, kernel_named, load};
 pub use molecule::SUPPORT_OVER_VAN_DER_WAALS;
+pub use moving::{FRAME_RATE, Moving, moving};
+pub use numbered::NumberedPath;
+pub use packed_frames::pack_frames;
 pub use particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
 pub use quantized::quantize;
 

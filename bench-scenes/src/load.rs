@@ -1,6 +1,6 @@
 //! From what a user types to a scene.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use metaball_core::{Kernel, Scene};
@@ -9,7 +9,8 @@ use crate::cameras::framing;
 use crate::error::{Flaw, LoadError};
 use crate::file::{self, FileKind};
 use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
-use crate::{BenchScene, Kind, generate, generators, known, scene_file};
+use crate::scene_file::{self, SceneFile};
+use crate::{BenchScene, Kind, generate, generators, known};
 
 /// What replaces a scene's own choices; `None` keeps them. Support radii stay as they are.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -31,8 +32,8 @@ pub fn load(spec: &str, overrides: &Overrides) -> Result<BenchScene, LoadError> 
     let path = Path::new(spec);
     let mut scene = if let Some(known) = known().iter().find(|known| known.name == spec) {
         known.scene()?
-    } else if let Some(scene) = generate::from_spec(spec)? {
-        scene
+    } else if let Some(recipe) = generate::parse(spec)? {
+        recipe.scene()?
     } else if let Some(kind) = FileKind::of(path) {
         from_file(path, kind)?
     } else {
@@ -81,7 +82,8 @@ pub fn kernel_named(name: &str, exponent: Option<i64>) -> Result<Kernel, LoadErr
     }
 }
 
-fn overridden(scene: Scene, overrides: &Overrides) -> Result<Scene, LoadError> {
+/// The scene with its own choices replaced.
+pub(crate) fn overridden(scene: Scene, overrides: &Overrides) -> Result<Scene, LoadError> {
     let kernel = overrides.kernel.unwrap_or(scene.kernel());
     let kernel = match (kernel, overrides.exponent) {
         (Kernel::Power(_), Some(exponent)) => kernel_named("power", Some(exponent))?,
@@ -92,31 +94,42 @@ fn overridden(scene: Scene, overrides: &Overrides) -> Result<Scene, LoadError> {
 }
 
 fn from_file(path: &Path, kind: FileKind) -> Result<BenchScene, LoadError> {
-    let bytes = file::read(path)?;
-    let own = path.display().to_string();
     if kind != FileKind::SceneFile {
-        let particles = kind.parse(&bytes).map_err(|flaw| flaw.in_file(&own))?;
-        let scene = particles.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD);
-        return Ok(of_file(path, scene.map_err(|flaw| flaw.in_file(&own))?));
+        return Ok(of_file(path, in_file(path, kind, DEFAULT_KERNEL, DEFAULT_THRESHOLD)?));
     }
+    let (scene_file, table, kind) = open_scene_file(path)?;
+    let scene = in_file(&table, kind, scene_file.kernel, scene_file.threshold)?;
+    let framed = of_file(path, scene);
+    Ok(BenchScene { camera: scene_file.camera.unwrap_or(framed.camera), ..framed })
+}
 
+/// The scene of a particle file.
+pub(crate) fn in_file(
+    path: &Path,
+    kind: FileKind,
+    kernel: Kernel,
+    threshold: f32,
+) -> Result<Scene, LoadError> {
+    let bytes = file::read(path)?;
+    kind.parse(&bytes)
+        .and_then(|particles| particles.into_scene(kernel, threshold))
+        .map_err(|flaw| flaw.in_file(&path.display().to_string()))
+}
+
+/// What a scene file says, and the path and kind of the particle file that it names.
+pub(crate) fn open_scene_file(path: &Path) -> Result<(SceneFile, PathBuf, FileKind), LoadError> {
+    let own = path.display().to_string();
+    let bytes = file::read(path)?;
     let scene_file =
         file::text(&bytes).and_then(scene_file::parse).map_err(|flaw| flaw.in_file(&own))?;
     let table = path.parent().unwrap_or(Path::new("")).join(&scene_file.particles);
-    let kind =
-        FileKind::of(&table).filter(|kind| *kind != FileKind::SceneFile).ok_or_else(|| {
-            let needed =
-                "a .csv, .xyz, .pdb, .ent, .cif, .mmcif or .balls file, or one of these with .gz";
-            let flaw = Flaw::needed(needed, format_args!("{:?}", scene_file.particles));
-            flaw.at_key("particles").in_file(&own)
-        })?;
-    let bytes = file::read(&table)?;
-    let scene = kind
-        .parse(&bytes)
-        .and_then(|particles| particles.into_scene(scene_file.kernel, scene_file.threshold))
-        .map_err(|flaw| flaw.in_file(&table.display().to_string()))?;
-    let framed = of_file(path, scene);
-    Ok(BenchScene { camera: scene_file.camera.unwrap_or(framed.camera), ..framed })
+    let kind = FileKind::of(&table).filter(|kind| kind.is_particles()).ok_or_else(|| {
+        let needed =
+            "a .csv, .xyz, .pdb, .ent, .cif, .mmcif or .balls file, or one of these with .gz";
+        let flaw = Flaw::needed(needed, format_args!("{:?}", scene_file.particles));
+        flaw.at_key("particles").in_file(&own)
+    })?;
+    Ok((scene_file, table, kind))
 }
 
 /// The scene of a user's file, framed from the front, a little from the right and from above.

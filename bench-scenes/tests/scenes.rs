@@ -130,6 +130,9 @@ fn the_readme_lists_every_scene() {
     for name in generators().iter().map(|generator| generator.name) {
         assert!(readme.contains(&format!("| `{name}:N` |")), "{name} is not in README.md");
     }
+    for name in bench_scenes::moving().iter().map(|(name, _)| name) {
+        assert!(readme.contains(&format!("`{name}`")), "{name} is not in README.md");
+    }
     for name in bench_scenes::cases().iter().map(|case| case.name) {
         assert!(readme.contains(&format!("| `{name}` |")), "{name} is not in README.md");
     }

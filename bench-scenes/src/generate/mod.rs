@@ -3,7 +3,7 @@
 //! A generator places balls and gives them relative sizes; their common scale follows from the
 //! density, which means the same for all of them: the supports of so many other balls hold a ball's
 //! centre, on average. All is made with exact operations from integers, so that a spec gives the
-//! same balls on every platform.
+//! same balls on every platform. Some of them move: their still scene is frame 0.
 
 mod cloud;
 mod fountain;
@@ -40,11 +40,20 @@ pub struct Generator {
     pub kernel: Kernel,
     /// T.
     pub threshold: f32,
-    place: fn(usize, &mut Random) -> Vec<Placed>,
+    place: Place,
     /// From the middle of the balls to the eye.
     seen_from: Vec3,
     /// The path of cameras, from the balls' bounds and `seen_from`.
     path: fn(&Aabb, Vec3) -> Vec<Camera>,
+}
+
+/// Places so many balls.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// Once and for all.
+    Still(fn(usize, &mut Random) -> Vec<Placed>),
+    /// At a time in seconds; the still scene's is 0.
+    Moving(fn(usize, &mut Random, f64) -> Vec<Placed>),
 }
 
 /// All generators.
@@ -60,7 +69,7 @@ pub fn generators() -> &'static [Generator] {
             density: 1.3,
             kernel: Kernel::QUARTIC,
             threshold: 0.2,
-            place: cloud::scattered,
+            place: Place::Still(cloud::scattered),
             seen_from: Vec3::new(0.5, 0.35, 1.0),
             path: walk_around,
         },
@@ -70,7 +79,7 @@ pub fn generators() -> &'static [Generator] {
             density: 3.0,
             kernel: Kernel::Wyvill,
             threshold: 0.5,
-            place: cloud::random,
+            place: Place::Still(cloud::random),
             seen_from: Vec3::new(0.5, 0.35, 1.0),
             path: walk_around,
         },
@@ -80,7 +89,7 @@ pub fn generators() -> &'static [Generator] {
             density: 45.0,
             kernel: Kernel::QUARTIC,
             threshold: 0.2,
-            place: tornado::tornado,
+            place: Place::Moving(tornado::tornado),
             seen_from: Vec3::new(0.0, 0.25, 1.0),
             path: walk_around,
         },
@@ -90,7 +99,7 @@ pub fn generators() -> &'static [Generator] {
             density: 45.0,
             kernel: Kernel::QUARTIC,
             threshold: 0.2,
-            place: pool::pool,
+            place: Place::Still(pool::pool),
             seen_from: Vec3::new(0.4, 0.45, 1.0),
             path: walk_around,
         },
@@ -100,7 +109,7 @@ pub fn generators() -> &'static [Generator] {
             density: 12.0,
             kernel: Kernel::Wyvill,
             threshold: 0.5,
-            place: fountain::fountain,
+            place: Place::Moving(fountain::fountain),
             seen_from: Vec3::new(0.0, 0.35, 1.0),
             path: walk_around,
         },
@@ -111,7 +120,7 @@ pub fn generators() -> &'static [Generator] {
             density: 20.0,
             kernel: Kernel::Wyvill,
             threshold: 0.5,
-            place: mud::mud,
+            place: Place::Still(mud::mud),
             seen_from: Vec3::new(1.0, 0.75, 0.55),
             path: come_near,
         },
@@ -119,8 +128,17 @@ pub fn generators() -> &'static [Generator] {
     GENERATORS
 }
 
-/// The scene of `name:count[:density[:seed]]`; `None` when the first word is no generator's.
-pub(crate) fn from_spec(spec: &str) -> Result<Option<BenchScene>, LoadError> {
+/// What a spec asks for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Recipe {
+    generator: &'static Generator,
+    count: usize,
+    density: f64,
+    seed: u64,
+}
+
+/// What `name:count[:density[:seed]]` asks for; `None` when the first word is no generator's.
+pub(crate) fn parse(spec: &str) -> Result<Option<Recipe>, LoadError> {
     let (name, numbers) = spec.split_once(':').unwrap_or((spec, ""));
     let Some(generator) = generators().iter().find(|generator| generator.name == name) else {
         return Ok(None);
@@ -161,31 +179,69 @@ pub(crate) fn from_spec(spec: &str) -> Result<Option<BenchScene>, LoadError> {
         let needed = format!("more than {} balls for a density of {density}", density + 1.0);
         return Err(refused("count", needed, &count.to_string()));
     }
-    generator.scene(count, density, seed).map(Some)
+    Ok(Some(Recipe { generator, count, density, seed }))
 }
 
 impl Generator {
-    fn scene(
-        &'static self,
-        count: usize,
-        density: f64,
-        seed: u64,
-    ) -> Result<BenchScene, LoadError> {
-        let placed = (self.place)(count, &mut Random::new(seed));
-        let scale = scale_for(&placed, density);
-        let balls = placed
-            .iter()
-            .map(|ball| Metaball::new(ball.center.as_vec3(), (scale * ball.size) as f32));
-        let scene = Scene::new(balls, self.kernel, self.threshold)?;
-        let bounds = scene.bounds();
+    /// Whether its balls move.
+    pub fn moves(&self) -> bool {
+        matches!(self.place, Place::Moving(_))
+    }
+}
+
+impl Recipe {
+    /// The still scene.
+    pub(crate) fn scene(&self) -> Result<BenchScene, LoadError> {
+        let placed = self.placed(0.0);
+        let scene = self.scaled(&placed, scale_for(&placed, self.density))?;
+        let (bounds, seen_from) = (scene.bounds(), self.generator.seen_from);
         Ok(BenchScene {
-            name: format!("{}:{count}:{density}:{seed}", self.name),
-            about: self.about.to_owned(),
-            camera: framing(&bounds, self.seen_from),
-            path: (self.path)(&bounds, self.seen_from),
+            name: self.name(),
+            about: self.generator.about.to_owned(),
+            camera: framing(&bounds, seen_from),
+            path: (self.generator.path)(&bounds, seen_from),
             kind: Kind::General,
             scene,
         })
+    }
+
+    /// The same with all its parts named.
+    pub(crate) fn name(&self) -> String {
+        format!("{}:{}:{}:{}", self.generator.name, self.count, self.density, self.seed)
+    }
+
+    pub(crate) fn generator(&self) -> &'static Generator {
+        self.generator
+    }
+
+    /// From the middle of the balls to the eye.
+    pub(crate) fn seen_from(&self) -> Vec3 {
+        self.generator.seen_from
+    }
+
+    /// The scale of the balls at all times: that of the still scene.
+    pub(crate) fn scale(&self) -> f64 {
+        scale_for(&self.placed(0.0), self.density)
+    }
+
+    /// The balls after so many seconds.
+    pub(crate) fn at(&self, time: f64, scale: f64) -> Result<Scene, LoadError> {
+        self.scaled(&self.placed(time), scale)
+    }
+
+    fn placed(&self, time: f64) -> Vec<Placed> {
+        let random = &mut Random::new(self.seed);
+        match self.generator.place {
+            Place::Still(place) => place(self.count, random),
+            Place::Moving(place) => place(self.count, random, time),
+        }
+    }
+
+    fn scaled(&self, placed: &[Placed], scale: f64) -> Result<Scene, LoadError> {
+        let balls = placed
+            .iter()
+            .map(|ball| Metaball::new(ball.center.as_vec3(), (scale * ball.size) as f32));
+        Ok(Scene::new(balls, self.generator.kernel, self.generator.threshold)?)
     }
 }
 
@@ -253,7 +309,7 @@ mod tests {
 
     #[test]
     fn refusals_name_the_part_of_the_spec() {
-        let refusal = |spec: &str| from_spec(spec).expect_err("refused").to_string();
+        let refusal = |spec: &str| parse(spec).expect_err("refused").to_string();
         assert_eq!(
             refusal("pool"),
             "count of \"pool\": needed a number of balls up to 16777216, found \"\""
@@ -271,6 +327,6 @@ mod tests {
             "count of \"pool:20\": needed more than 46 balls for a density of 45, found \"20\""
         );
         assert!(refusal("pool:20:inf").contains("needed more than inf balls"));
-        assert_eq!(from_spec("lake:20").expect("not a generator"), None);
+        assert!(parse("lake:20").expect("not a generator").is_none());
     }
 }
