@@ -4,16 +4,18 @@
 //! [`contest`] is the heart: it takes a scene through all [`methods`], asks the oracle about the rays
 //! that the shaders used ([`mod@reference`]), and yields a [`record`] for each. [`score`] holds the one
 //! set of definitions of what is wrong, [`measure`] those of what is fast, [`judge`] what each method
-//! promises and is held to. [`compare`], [`render`] and [`stability`] are the commands; [`light`] has
-//! the effects of `render`. [`tables`] holds the tables of papers.
+//! promises and is held to. [`mod@compare`], [`mod@render`], [`mod@animate`] and [`mod@stability`] are the
+//! commands; [`light`] has the effects of `render` and `animate`. [`tables`] holds the tables of papers.
 //! [`cpu`] and [`shade`] draw where there is no adapter.
 
+pub mod animate;
 pub mod chart;
 pub mod compare;
 pub mod conclusions;
 pub mod console;
 pub mod contest;
 pub mod cpu;
+pub mod frame_png;
 pub mod heat;
 pub mod hits_exr;
 pub mod html;
@@ -34,6 +36,7 @@ pub mod report;
 pub mod score;
 pub mod setting;
 pub mod shade;
+pub mod sheet;
 pub mod stability;
 pub mod stats;
 pub mod subset;

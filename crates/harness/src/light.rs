@@ -1,20 +1,18 @@
-//! The effects of the command `render`: their options, and a picture lit by them.
+//! The effects of the commands `render` and `animate`: their options, and pictures lit by them.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, bail, ensure};
-use bench_scenes::BenchScene;
 use clap::Args;
 use exr::prelude::{SpecificChannels, WritableImage};
 use glam::Vec3;
 use image::{DynamicImage, ImageReader};
-use metaball_core::gpu::{Gpu, IsoRenderer};
-use metaball_core::{Hit, NO_LIMIT, View};
+use metaball_core::gpu::{Gpu, Image, IsoRenderer};
+use metaball_core::{Aabb, Camera, Hit, NO_LIMIT, Scene, View};
 use metaball_light::{Effects, Environment, Film, Lamp, Occlusion, Panorama, Studio, Surface};
 
-use crate::console::Progress;
 use crate::measure::milliseconds;
 use crate::numbers::decimal;
 use crate::output::write_atomically;
@@ -80,9 +78,6 @@ pub struct LightOptions {
     /// Brighten the picture by powers of two.
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
     exposure: Option<f32>,
-    /// Write the picture's linear light as an OpenEXR file too.
-    #[arg(long, value_name = "FILE")]
-    light_out: Option<PathBuf>,
 }
 
 /// Three numbers with commas between.
@@ -94,10 +89,21 @@ fn vector(text: &str) -> Result<Vec3, String> {
     }
 }
 
+/// Light for any number of pictures by one camera: what its options ask for, checked and read.
+pub struct Lighting {
+    effects: Effects,
+    samples: u32,
+    seed: u32,
+    depth_cue: Option<f32>,
+    stops: f32,
+}
+
 /// A picture in the light asked for, and how long it took.
 pub struct Lit {
     /// Linear light.
     pub film: Film,
+    /// The same, developed.
+    pub image: Image,
     /// Paths a pixel.
     pub samples: u32,
     /// Wall time of all samples.
@@ -112,64 +118,26 @@ impl LightOptions {
         *self != Self::default()
     }
 
-    /// Exposes the picture. `renderer` has built the scene; `hits` are the view's first hits.
+    /// The light for a camera's pictures of what fills these bounds; `None` where none is asked for.
     ///
     /// # Errors
-    /// When an option makes no sense, a file is not readable, or the method cannot follow the rays.
-    pub fn expose(
-        &self,
-        gpu: &Gpu,
-        renderer: &mut dyn IsoRenderer,
-        bench: &BenchScene,
-        view: &View,
-        hits: &[Hit],
-    ) -> anyhow::Result<Lit> {
+    /// When an option makes no sense or a file is not readable: names it.
+    pub fn lighting(&self, camera: &Camera, bounds: &Aabb) -> anyhow::Result<Option<Lighting>> {
+        if !self.is_asked() {
+            return Ok(None);
+        }
         let fallback = if self.refraction.is_some() { 64 } else { 1 };
-        let samples = self.samples.unwrap_or(fallback);
-        let effects = self.effects(bench)?;
-        let seed = self.seed.unwrap_or_default();
-        let mut studio = Studio::new(gpu, &bench.scene, view, effects, samples, seed)?;
-        let progress = Progress::new(u64::from(samples));
-        let start = Instant::now();
-        for _ in 0..samples {
-            studio.expose(renderer)?;
-            progress.advance(1);
-        }
-        let ms = milliseconds(start.elapsed());
-        drop(progress);
-        let mut film = studio.film()?;
-        if let Some(strength) = self.depth_cue {
-            film.cue_depth(hits, DEPTH_CUE_WIDTH, strength);
-        }
-        Ok(Lit { film, samples, ms, doubts: studio.doubts()? })
+        Ok(Some(Lighting {
+            effects: self.effects(camera, bounds)?,
+            samples: self.samples.unwrap_or(fallback),
+            seed: self.seed.unwrap_or_default(),
+            depth_cue: self.depth_cue,
+            stops: self.exposure.unwrap_or_default(),
+        }))
     }
 
-    /// Powers of two by which the picture is brightened.
-    pub fn stops(&self) -> f32 {
-        self.exposure.unwrap_or_default()
-    }
-
-    /// Writes the linear light, if asked for.
-    ///
-    /// # Errors
-    /// When the file cannot be written.
-    pub fn write_light(&self, film: &Film) -> anyhow::Result<()> {
-        let Some(path) = &self.light_out else { return Ok(()) };
-        let (width, height) = (film.width as usize, film.height as usize);
-        let pixel = |at: exr::math::Vec2<usize>| {
-            let light = film.light[at.y() * width + at.x()];
-            (light.x, light.y, light.z)
-        };
-        let mut file = Cursor::new(Vec::new());
-        exr::image::Image::from_channels((width, height), SpecificChannels::rgb(pixel))
-            .write()
-            .to_buffered(&mut file)
-            .with_context(|| format!("cannot encode {}", path.display()))?;
-        write_atomically(path, file.get_ref())
-    }
-
-    fn effects(&self, bench: &BenchScene) -> anyhow::Result<Effects> {
-        let base = Effects::phong(&bench.camera);
+    fn effects(&self, camera: &Camera, bounds: &Aabb) -> anyhow::Result<Effects> {
+        let base = Effects::phong(camera);
         let diameter = at_least(0.0, "--lamp-size", self.lamp_size.unwrap_or_default())?;
         let lamps = if self.lamp.is_empty() {
             base.lamps.iter().map(|lamp| Lamp { diameter, ..*lamp }).collect()
@@ -180,7 +148,7 @@ impl LightOptions {
         };
         let reach = at_least(0.0, "--occlusion-reach", self.occlusion_reach.unwrap_or(NO_LIMIT))?;
         Ok(Effects {
-            surface: self.surface(bench)?,
+            surface: self.surface(bounds)?,
             lamps,
             shadows: self.shadows,
             occlusion: self.ambient_occlusion.map(|rays| Occlusion { rays, reach }),
@@ -196,10 +164,10 @@ impl LightOptions {
         })
     }
 
-    fn surface(&self, bench: &BenchScene) -> anyhow::Result<Surface> {
+    fn surface(&self, bounds: &Aabb) -> anyhow::Result<Surface> {
         if let Some(refraction) = self.refraction {
             ensure!(refraction > 0.0, "--refraction: needed an index above 0, found {refraction}");
-            let radius = 0.5 * bench.scene.bounds().extent().length();
+            let radius = 0.5 * bounds.extent().length();
             let watery = Vec3::new(0.9, 0.28, 0.12) / radius.max(f32::MIN_POSITIVE);
             let absorption = self.absorption.unwrap_or(watery);
             ensure!(
@@ -218,6 +186,60 @@ impl LightOptions {
         );
         Ok(Surface::Opaque { reflectivity })
     }
+}
+
+impl Lighting {
+    /// Paths of light a pixel.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Exposes a picture. `renderer` has built the scene; `hits` are the view's first hits.
+    ///
+    /// # Errors
+    /// When the method cannot follow the rays, or the device fails.
+    pub fn expose(
+        &self,
+        gpu: &Gpu,
+        renderer: &mut dyn IsoRenderer,
+        scene: &Scene,
+        view: &View,
+        hits: &[Hit],
+        mut after_sample: impl FnMut(),
+    ) -> anyhow::Result<Lit> {
+        let samples = self.samples;
+        let mut studio = Studio::new(gpu, scene, view, self.effects.clone(), samples, self.seed)?;
+        let start = Instant::now();
+        for _ in 0..samples {
+            studio.expose(renderer)?;
+            after_sample();
+        }
+        let ms = milliseconds(start.elapsed());
+        let mut film = studio.film()?;
+        if let Some(strength) = self.depth_cue {
+            film.cue_depth(hits, DEPTH_CUE_WIDTH, strength);
+        }
+        let image = film.develop(self.stops);
+        Ok(Lit { film, image, samples, ms, doubts: studio.doubts()? })
+    }
+}
+
+/// Writes linear light as an OpenEXR file.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_light(path: &Path, film: &Film) -> anyhow::Result<()> {
+    let (width, height) = (film.width as usize, film.height as usize);
+    let pixel = |at: exr::math::Vec2<usize>| {
+        let light = film.light[at.y() * width + at.x()];
+        (light.x, light.y, light.z)
+    };
+    let mut file = Cursor::new(Vec::new());
+    exr::image::Image::from_channels((width, height), SpecificChannels::rgb(pixel))
+        .write()
+        .to_buffered(&mut file)
+        .with_context(|| format!("cannot encode {}", path.display()))?;
+    write_atomically(path, file.get_ref())
 }
 
 fn at_least(least: f32, option: &str, found: f32) -> anyhow::Result<f32> {
@@ -254,14 +276,18 @@ pub fn facts(lit: &Lit) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use bench_scenes::{Overrides, load};
+    use clap::FromArgMatches;
 
     use super::*;
     use crate::output::tests::scratch;
 
-    fn bench() -> BenchScene {
-        load("two-merging", &Overrides::default()).expect("known")
+    /// The options of a command line that has no others.
+    pub(crate) fn options(line: &str) -> LightOptions {
+        let command = LightOptions::augment_args(clap::Command::new("light").no_binary_name(true));
+        let matches = command.try_get_matches_from(line.split(' ')).expect("options of light");
+        LightOptions::from_arg_matches(&matches).expect("options of light")
     }
 
     #[test]
@@ -272,8 +298,11 @@ mod tests {
 
     #[test]
     fn nonsense_is_named() {
-        let message =
-            |options: LightOptions| options.effects(&bench()).expect_err("refused").to_string();
+        let bench = load("two-merging", &Overrides::default()).expect("known");
+        let message = |options: LightOptions| {
+            let lighting = options.lighting(&bench.camera, &bench.scene.bounds());
+            lighting.err().expect("refused").to_string()
+        };
         let refraction = LightOptions { refraction: Some(0.0), ..Default::default() };
         assert!(message(refraction).starts_with("--refraction"));
         let share = Some(2.0);
@@ -291,8 +320,7 @@ mod tests {
         let path = folder.join("light.exr");
         let light = vec![Vec3::new(0.25, 4.0, 0.0), Vec3::splat(1e-3)];
         let film = Film { width: 2, height: 1, light: light.clone() };
-        let options = LightOptions { light_out: Some(path.clone()), ..Default::default() };
-        options.write_light(&film).expect("written");
+        write_light(&path, &film).expect("written");
         let panorama = read_panorama(&path).expect("readable");
         std::fs::remove_dir_all(folder).expect("removable");
         assert_eq!(Panorama::new(2, 1, light).expect("light"), panorama);

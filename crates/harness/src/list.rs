@@ -1,6 +1,6 @@
 //! The commands `scenes` and `methods`.
 
-use bench_scenes::{generators, known};
+use bench_scenes::{generators, known, moving};
 
 use crate::console;
 use crate::methods::METHODS;
@@ -15,7 +15,20 @@ pub fn scenes() {
     for generator in generators() {
         console::line(&format!("  {:<24} {}", generator.name, generator.about));
     }
-    console::line("\nFiles: .toml scenes; .pdb, .cif, .xyz and .csv particles, also with .gz");
+    console::line("\nMoving scenes, for animate");
+    for (name, about) in moving() {
+        console::line(&format!("  {name:<24} {about}"));
+    }
+    for generator in generators().iter().filter(|generator| generator.moves()) {
+        console::line(&format!(
+            "  {:<24} {}",
+            format!("{}:COUNT", generator.name),
+            generator.about
+        ));
+    }
+    console::line(
+        "\nFiles: .toml scenes; .pdb, .cif, .xyz and .csv particles, also with .gz;\nparticles-%04d.xyz and the like, and .frames, move",
+    );
 }
 
 /// Lists the methods.

@@ -1,19 +1,21 @@
 //! The command line.
 
+use std::ops::Range;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 
-use bench_scenes::{Case, LoadError, Overrides, kernel_named};
+use bench_scenes::{Case, LoadError, NumberedPath, Overrides, kernel_named};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use harness::animate::{self, animate};
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
 use harness::contest::Rules;
 use harness::light::LightOptions;
 use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
-use harness::render::{Device, Order, render};
+use harness::render::{Device, Drawing, Order, render};
 use harness::setting::Setting;
 use harness::stability::entrants::{Entrant, entrants};
 use harness::stability::{self, stability};
@@ -61,27 +63,43 @@ enum Command {
     },
     /// Draw one picture.
     Render {
-        /// A known name, a generator such as scattered:50000, or a scene or particle file.
-        scene: String,
-        /// The method.
-        #[arg(long, value_name = "NAME", default_value = "fbvh-certified", value_parser = method_parser())]
-        method: &'static Method,
+        #[command(flatten)]
+        drawing: Box<DrawingArgs>,
         /// Where the PNG goes.
         #[arg(long, value_name = "FILE", default_value = "out/image.png")]
         out: PathBuf,
         /// Write distances (Z) and normals (N.X, N.Y, N.Z) as f32 channels of an OpenEXR file too.
         #[arg(long, value_name = "FILE")]
         hits: Option<PathBuf>,
-        /// What the picture shows: phong, normal, depth, color, spheres, or work:COUNTER.
-        #[arg(long, value_name = "WHAT", default_value = "phong", value_parser = picture_named)]
-        picture: Picture,
-        /// Trace on the CPU, without a graphics adapter: what happens anyway where there is none.
-        #[arg(long, conflicts_with_all = ["adapter", "software"])]
-        cpu: bool,
+        /// Write the picture's linear light as an OpenEXR file too.
+        #[arg(long, value_name = "FILE", requires = "LightOptions")]
+        light_out: Option<PathBuf>,
+    },
+    /// Draw the frames of a moving scene, and report how long building and drawing took.
+    ///
+    /// Frames that are there already, whole and drawn with these options, are not drawn again, so an
+    /// interrupted run is taken up where it was, and the range can be split among machines.
+    Animate {
         #[command(flatten)]
-        light: Box<LightOptions>,
-        #[command(flatten)]
-        common: Common,
+        drawing: Box<DrawingArgs>,
+        /// Frames, the last one not included; all, or the first seconds of what goes on for ever.
+        #[arg(long, value_name = "A..B")]
+        frames: Option<FrameRange>,
+        /// Draw every Nth of them.
+        #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+        every: u32,
+        /// Where the PNGs go: %d stands for the frame's number, %04d for four digits or more.
+        #[arg(long, value_name = "FILE", default_value = "out/frame-%04d.png")]
+        out: NumberedPath,
+        /// Write a picture of all these frames side by side too.
+        #[arg(long, value_name = "FILE")]
+        sheet: Option<PathBuf>,
+        /// Draw all frames, those that are there too.
+        #[arg(long)]
+        force: bool,
+        /// Build for a frame only after the one before has been drawn, not meanwhile.
+        #[arg(long)]
+        in_turn: bool,
     },
     /// Measure a paper's tables anew, and set the printed numbers beside; or other programs.
     Tables {
@@ -197,6 +215,36 @@ enum Paper {
     },
 }
 
+/// What to draw, and how.
+#[derive(Debug, Args)]
+struct DrawingArgs {
+    /// A known name, a generator such as scattered:50000, or a file; for animate one that moves, such
+    /// as tornado:4000 or particles-%04d.xyz.
+    scene: String,
+    /// The method.
+    #[arg(long, value_name = "NAME", default_value = "fbvh-certified", value_parser = method_parser())]
+    method: &'static Method,
+    /// What the picture shows: phong, normal, depth, color, spheres, or work:COUNTER.
+    #[arg(long, value_name = "WHAT", default_value = "phong", value_parser = picture_named)]
+    picture: Picture,
+    /// Trace on the CPU, without a graphics adapter: what happens anyway where there is none.
+    #[arg(long, conflicts_with_all = ["adapter", "software"])]
+    cpu: bool,
+    #[command(flatten)]
+    light: LightOptions,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl DrawingArgs {
+    fn drawing(self) -> Drawing {
+        let Self { scene, method, picture, cpu, light, common } = self;
+        let (overrides, size) = (common.overrides(), common.size());
+        let device = if cpu { Device::Cpu } else { Device::Adapter(common.adapter()) };
+        Drawing { scene, overrides, method, size, picture, light, device }
+    }
+}
+
 /// What every drawing command takes.
 #[derive(Debug, Args)]
 struct Common {
@@ -249,6 +297,22 @@ impl FromStr for Size {
             .and_then(|(width, height)| Some(Self(width.parse().ok()?, height.parse().ok()?)))
             .filter(|size| size.0 > 0 && size.1 > 0)
             .ok_or_else(|| "needed WIDTHxHEIGHT in pixels, such as 640x480".to_owned())
+    }
+}
+
+/// Numbers of frames, the last one not included.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct FrameRange(Range<u32>);
+
+impl FromStr for FrameRange {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        text.split_once("..")
+            .and_then(|(first, end)| Some(first.parse().ok()?..end.parse().ok()?))
+            .filter(|range: &Range<u32>| !range.is_empty())
+            .map(Self)
+            .ok_or_else(|| "needed FIRST..END, such as 0..48 for the frames 0 to 47".to_owned())
     }
 }
 
@@ -326,11 +390,12 @@ fn run(command: Command) -> anyhow::Result<()> {
             let (overrides, adapter) = (common.overrides(), common.adapter());
             compare(&Comparison { scenes, overrides, rules, adapter, out })
         }
-        Command::Render { scene, method, out, hits, picture, cpu, light, common } => {
-            let (overrides, size) = (common.overrides(), common.size());
-            let device = if cpu { Device::Cpu } else { Device::Adapter(common.adapter()) };
-            let light = *light;
-            render(&Order { scene, overrides, method, size, picture, light, device, out, hits })
+        Command::Render { drawing, out, hits, light_out } => {
+            render(&Order { drawing: drawing.drawing(), out, hits, light_out })
+        }
+        Command::Animate { drawing, frames, every, out, sheet, force, in_turn } => {
+            let (drawing, frames) = (drawing.drawing(), frames.map(|FrameRange(range)| range));
+            animate(&animate::Order { drawing, frames, every, out, sheet, force, in_turn })
         }
         Command::Tables { paper: Paper::Gourmel { quick, size, out, device } } => {
             let extent =
@@ -455,6 +520,8 @@ mod tests {
         assert!(message("metaball render molecule --picture nosuch").contains("work:"));
         assert!(message("metaball compare --kernel gauss").contains("wyvill or perlin"));
         assert!(message("metaball stability --cases nosuch").contains("grazing"));
+        assert!(message("metaball animate splash --frames 5..5").contains("FIRST..END"));
+        assert!(message("metaball animate splash --out frame.png").contains("frame-%04d.png"));
         assert!(parse("metaball render").is_err());
         assert!(parse("metaball render molecule --cpu --software").is_err());
         assert!(parse("metaball tables").is_err());

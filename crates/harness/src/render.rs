@@ -4,11 +4,14 @@ use std::path::PathBuf;
 
 use anyhow::ensure;
 use bench_scenes::{BenchScene, Overrides, load};
-use metaball_core::gpu::{self, AdapterChoice, Gpu, GpuError, Picture, Shaded, Shading, Targets};
-use metaball_core::{Hit, View};
+use metaball_core::gpu::{
+    self, AdapterChoice, Gpu, GpuError, IsoRenderer, Picture, RenderError, Shaded, Shading, Targets,
+};
+use metaball_core::{Hit, Scene, View};
 
+use crate::console::Progress;
 use crate::hits_exr::write_hits;
-use crate::light::{self, LightOptions};
+use crate::light::{self, LightOptions, Lit, write_light};
 use crate::measure::milliseconds;
 use crate::methods::Method;
 use crate::numbers::{decimal, grouped};
@@ -20,6 +23,19 @@ use crate::{console, cpu};
 /// What to draw, how, and where to.
 #[derive(Debug, Clone)]
 pub struct Order {
+    /// What to draw and how.
+    pub drawing: Drawing,
+    /// Where the PNG goes.
+    pub out: PathBuf,
+    /// Where the hits go, if anywhere.
+    pub hits: Option<PathBuf>,
+    /// Where the linear light goes, if anywhere; only with effects.
+    pub light_out: Option<PathBuf>,
+}
+
+/// What to draw and how: a picture, or each frame of a moving scene.
+#[derive(Debug, Clone)]
+pub struct Drawing {
     /// Name, generator or file.
     pub scene: String,
     /// What to change about the scene.
@@ -34,10 +50,6 @@ pub struct Order {
     pub light: LightOptions,
     /// What to draw with.
     pub device: Device,
-    /// Where the PNG goes.
-    pub out: PathBuf,
-    /// Where the hits go, if anywhere.
-    pub hits: Option<PathBuf>,
 }
 
 /// What draws.
@@ -51,13 +63,13 @@ pub enum Device {
 }
 
 /// What was drawn.
-struct Drawn {
+pub(crate) struct Drawn {
     hits: Vec<Hit>,
-    shaded: Shaded,
-    build_ms: f64,
-    frame_ms: f64,
-    /// What the light took, where there are effects.
-    light: Option<String>,
+    pub(crate) shaded: Shaded,
+    pub(crate) build_ms: f64,
+    pub(crate) frame_ms: f64,
+    /// What the effects made, where there are any.
+    lit: Option<Lit>,
     device: String,
 }
 
@@ -66,26 +78,29 @@ struct Drawn {
 /// # Errors
 /// When the scene does not load, the method cannot draw it, or a file cannot be written.
 pub fn render(order: &Order) -> anyhow::Result<()> {
-    let bench = load(&order.scene, &order.overrides)?;
-    let scene = &bench.scene;
-    let (width, height) = order.size;
-    let view = View::new(bench.camera, width, height)?;
-    let drawn = match open(&order.device)? {
-        Some(gpu) => on_adapter(&gpu, order, &bench, &view)?,
-        None => on_cpu(order, &bench, &view)?,
+    let drawing = &order.drawing;
+    let BenchScene { name, scene, camera, .. } = &load(&drawing.scene, &drawing.overrides)?;
+    let (width, height) = drawing.size;
+    let view = View::new(*camera, width, height)?;
+    let drawn = match open(&drawing.device)? {
+        Some(gpu) => on_adapter(&gpu, drawing, scene, &view)?,
+        None => on_cpu(drawing, scene, &view)?,
     };
     write_atomically(&order.out, &encode_png(&drawn.shaded.image)?)?;
     if let Some(path) = &order.hits {
         write_hits(path, width, height, &drawn.hits)?;
     }
+    if let (Some(path), Some(lit)) = (&order.light_out, &drawn.lit) {
+        write_light(path, &lit.film)?;
+    }
 
     let balls = format!("{} of kernel {}", grouped(scene.len()), scene.kernel());
     let hit_count = drawn.hits.iter().filter(|hit| hit.is_hit()).count();
     let facts = [
-        ("scene", bench.name.clone()),
+        ("scene", name.clone()),
         ("balls", balls),
         ("threshold", scene.threshold().to_string()),
-        ("method", format!("{} ({})", order.method.name, order.method.paper)),
+        ("method", format!("{} ({})", drawing.method.name, drawing.method.paper)),
         ("adapter", drawn.device),
         ("build", format!("{} ms", decimal(drawn.build_ms))),
         ("frame", format!("{} ms", decimal(drawn.frame_ms))),
@@ -95,8 +110,8 @@ pub fn render(order: &Order) -> anyhow::Result<()> {
     for (name, value) in facts {
         console::line(&format!("{name:<10} {value}"));
     }
-    if let Some(light) = &drawn.light {
-        console::line(&format!("{:<10} {light}", "light"));
+    if let Some(lit) = &drawn.lit {
+        console::line(&format!("{:<10} {}", "light", light::facts(lit)));
     }
     if let Some(range) = drawn.shaded.range {
         console::line(&format!("{:<10} {} to {}", "scale", range.low, range.high));
@@ -108,7 +123,7 @@ pub fn render(order: &Order) -> anyhow::Result<()> {
 }
 
 /// The adapter; `None` when it is the CPU that draws.
-fn open(device: &Device) -> anyhow::Result<Option<Gpu>> {
+pub(crate) fn open(device: &Device) -> anyhow::Result<Option<Gpu>> {
     let Device::Adapter(choice) = device else { return Ok(None) };
     match Gpu::new(choice) {
         Ok(gpu) => Ok(Some(gpu)),
@@ -122,53 +137,74 @@ fn open(device: &Device) -> anyhow::Result<Option<Gpu>> {
 }
 
 /// The time is that of a second frame, since shaders are compiled with the first.
-fn on_adapter(gpu: &Gpu, order: &Order, bench: &BenchScene, view: &View) -> anyhow::Result<Drawn> {
-    let scene = &bench.scene;
-    let colors = scene.colors().is_some();
-    let counting = matches!(order.picture, Picture::Work(_));
-    let targets = Targets::new(gpu, view.width(), view.height(), colors, counting)?;
-    let mut renderer = (order.method.make)(counting);
+fn on_adapter(gpu: &Gpu, drawing: &Drawing, scene: &Scene, view: &View) -> anyhow::Result<Drawn> {
+    let targets = drawing.targets(gpu, scene)?;
+    let mut renderer = drawing.renderer();
     let build = renderer.build(gpu, scene)?;
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let hits = targets.read_hits(gpu)?;
-    let (shaded, light) = if order.light.is_asked() {
-        let lit = order.light.expose(gpu, renderer.as_mut(), bench, view, &hits)?;
-        order.light.write_light(&lit.film)?;
-        let image = lit.film.develop(order.light.stops());
-        (Shaded { image, range: None }, Some(light::facts(&lit)))
-    } else {
-        (Shading::new(gpu).draw(&targets, view, scene, order.picture)?, None)
+    let (shaded, lit) = match drawing.light.lighting(view.camera(), &scene.bounds())? {
+        Some(lighting) => {
+            let progress = Progress::new(lighting.samples().into());
+            let after = || progress.advance(1);
+            let lit = lighting.expose(gpu, renderer.as_mut(), scene, view, &hits, after)?;
+            (Shaded { image: lit.image.clone(), range: None }, Some(lit))
+        }
+        None => (Shading::new(gpu).draw(&targets, view, scene, drawing.picture)?, None),
     };
     Ok(Drawn {
         hits,
         shaded,
-        light,
+        lit,
         build_ms: milliseconds(build.structure),
         frame_ms: milliseconds(frame.wall),
-        device: format!("{} ({})", gpu.report().name, gpu.report().driver),
+        device: drawing.device_name(Some(gpu)),
     })
 }
 
-fn on_cpu(order: &Order, bench: &BenchScene, view: &View) -> anyhow::Result<Drawn> {
+/// Traces and shades without an adapter.
+pub(crate) fn on_cpu(drawing: &Drawing, scene: &Scene, view: &View) -> anyhow::Result<Drawn> {
     ensure!(
-        !order.light.is_asked(),
+        !drawing.light.is_asked(),
         "light needs a graphics adapter; the CPU shades phong, normal, depth and color"
     );
-    let look = Look::of(order.picture)?;
-    let traced = cpu::trace(order.method, &bench.scene, view)?;
-    let device = match order.device {
-        Device::Cpu => "none asked for: traced on the CPU",
-        Device::Adapter(_) => "no graphics adapter: traced on the CPU",
-    };
+    let look = Look::of(drawing.picture)?;
+    let traced = cpu::trace(drawing.method, scene, view)?;
     Ok(Drawn {
-        shaded: shade::draw(&bench.scene, view, &traced.rays, &traced.hits, look),
+        shaded: shade::draw(scene, view, &traced.rays, &traced.hits, look),
         hits: traced.hits,
-        light: None,
+        lit: None,
         build_ms: milliseconds(traced.build),
         frame_ms: milliseconds(traced.frame),
-        device: device.to_owned(),
+        device: drawing.device_name(None),
     })
+}
+
+impl Drawing {
+    /// What the frames of such a scene are drawn to.
+    pub(crate) fn targets(&self, gpu: &Gpu, scene: &Scene) -> Result<Targets, RenderError> {
+        let (width, height) = self.size;
+        Targets::new(gpu, width, height, scene.colors().is_some(), self.counts())
+    }
+
+    /// A renderer of the method, without a scene.
+    pub(crate) fn renderer(&self) -> Box<dyn IsoRenderer> {
+        (self.method.make)(self.counts())
+    }
+
+    /// What draws, in words.
+    pub(crate) fn device_name(&self, gpu: Option<&Gpu>) -> String {
+        match (gpu, &self.device) {
+            (Some(gpu), _) => format!("{} ({})", gpu.report().name, gpu.report().driver),
+            (None, Device::Cpu) => "none asked for: traced on the CPU".to_owned(),
+            (None, Device::Adapter(_)) => "no graphics adapter: traced on the CPU".to_owned(),
+        }
+    }
+
+    fn counts(&self) -> bool {
+        matches!(self.picture, Picture::Work(_))
+    }
 }
 
 #[cfg(test)]
@@ -180,7 +216,7 @@ mod tests {
     #[test]
     fn the_cpu_writes_picture_and_hits() {
         let folder = scratch("render-cpu");
-        let mut order = Order {
+        let drawing = Drawing {
             scene: "colors-100".to_owned(),
             overrides: Overrides::default(),
             method: find("fbvh").expect("listed"),
@@ -188,12 +224,12 @@ mod tests {
             picture: Picture::Phong,
             light: LightOptions::default(),
             device: Device::Cpu,
-            out: folder.join("image.png"),
-            hits: Some(folder.join("hits.exr")),
         };
+        let (out, hits) = (folder.join("image.png"), Some(folder.join("hits.exr")));
+        let mut order = Order { drawing, out, hits, light_out: None };
         render(&order).expect("drawn");
         assert!(order.out.is_file() && folder.join("hits.exr").is_file());
-        order.picture = Picture::Spheres;
+        order.drawing.picture = Picture::Spheres;
         assert!(render(&order).expect_err("refused").to_string().contains("graphics adapter"));
         std::fs::remove_dir_all(folder).expect("removable");
     }

@@ -10,7 +10,9 @@ use crate::{Scene, View};
 ///
 /// A method writes hits, and in scenes with colours the blended colour, and nothing else. Shading,
 /// clocks, counters and read-back are shared.
-pub trait IsoRenderer {
+///
+/// A renderer can go to another thread: one builds there while another draws.
+pub trait IsoRenderer: Send {
     /// Stable name in file names, tables and tests: lower case, digits, dashes.
     fn name(&self) -> &'static str;
 
