@@ -150,6 +150,25 @@ fn balls_that_all_overlap_are_no_pile() {
     assert!(stats.leaves > 8, "{stats:?}");
 }
 
+/// A point of a box is known to 2⁻²² of it in f32: for a small ball on a large one that is too little,
+/// unless the box is small too.
+#[test]
+fn boxes_are_narrow_for_their_least_ball() {
+    for ratio in [1e2f32, 1e4, 1e6] {
+        let balls = [
+            Metaball::new(Vec3::ZERO, ratio),
+            Metaball::new(std::f32::consts::FRAC_1_SQRT_2 * ratio * Vec3::Z, 1.0),
+        ];
+        let scene = Scene::new(balls, Kernel::QUARTIC, 0.25).expect("legal");
+        let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
+        let wide = (0..tree.leaf_count()).filter(|&leaf| tree.leaf_balls(leaf).1.contains(&1));
+        let widths = wide.map(|leaf| tree.leaves()[leaf].bounds().extent().max_element());
+        let widest = widths.reduce(f32::max);
+        assert!(widest.is_some_and(|side| side <= 16.0), "{ratio}: {widest:?}");
+        assert!(tree.leaf_count() < 200, "{ratio}: {} leaves", tree.leaf_count());
+    }
+}
+
 #[test]
 fn bins_out_of_range_are_refused() {
     let scene = Scene::new([], Kernel::QUARTIC, 0.5).expect("legal");

@@ -292,10 +292,12 @@ fn false_answer(
     if truth.is_ambiguous() {
         return None;
     }
-    // What is promised is 1e4 radii, and kernels whose slope does not vanish inside: Perlin's does at
-    // centres. Beyond, f64 may not tell, and then must say so.
+    // What is promised is 1e4 radii. Beyond, f64 may not tell, and then must say so; as it may not where
+    // Perlin's kernel, 1 − 10ρ³ at its centre, alone touches T there with neither slope nor curvature.
     let radii = |ball: Metaball| ball.center.distance(ray.origin) / ball.radius;
-    let promised = scene.kernel() != Kernel::Perlin && scene.balls().all(|ball| radii(ball) < 1e5);
+    let is_flat =
+        |ball: Metaball| scene.kernel() == Kernel::Perlin && ball.strength == scene.threshold();
+    let promised = scene.balls().all(|ball| radii(ball) < 1e5 && !is_flat(ball));
     if !promised && [hit.verdict, any, exit.verdict].contains(&Verdict::Undecided) {
         return None;
     }

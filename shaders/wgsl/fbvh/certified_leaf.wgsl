@@ -96,7 +96,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         // A leaf without a list is solid. Its faces lie inside the surface: a ray that is in it for no
         // longer than rounding can make up is told by the leaves around.
         if first == end {
-            if !SOLID_ENDS || frame.leave - frame.enter <= 4.0 * frame.widening {
+            if !SOLID_ENDS || frame.leave - frame.enter <= 4.0 * frame.slack {
                 return MISSED;
             }
             return found_at(max(at(frame, frame.enter), 0.0), select(HIT, INSIDE, frame.starts));

@@ -23,12 +23,10 @@ struct Frame {
     leave: f32,
     // Whether the ray starts in the box.
     starts: bool,
-    // A ball's v = 1 - r^2/R^2, formed from `origin`, is right to margin + margin_length/R on the
-    // stretch in the box, if it is not below that there.
-    margin: f32,
-    margin_length: f32,
-    // What rounding may take off either end of the stretch; it is added.
-    widening: f32,
+    // How far rounding can misplace `origin`.
+    misplaced: f32,
+    // How far past the box's faces the stretch reaches: what rounding may do to a point of the ray.
+    slack: f32,
 }
 
 // The ray's t at a local t.
@@ -37,6 +35,20 @@ fn at(frame: Frame, t: f32) -> f32 {
 }
 
 const UNIT: f32 = 0x1p-23f;
+
+// How far rounding can misplace the projection of a centre at this offset from o', and move the ray past
+// it: the offset itself, three products and their sum, a direction that is unit to rounding only.
+fn misplacement(frame: Frame, offset: vec3<f32>) -> f32 {
+    return 6.0 * UNIT * length(offset) + 1.05 * frame.misplaced;
+}
+
+// How far rounding can move v = 1 - s where s = r^2/R^2 is at most so much, from 0 to 1. A distance r
+// that is `misplaced` moves s by (2 r + misplaced) misplaced / R^2; its squares, their sum and the
+// quotient err by 9 units of s, the difference by one of v.
+fn depth_margin(s: f32, misplaced: f32, inverse_radius: f32) -> f32 {
+    let part = misplaced * inverse_radius;
+    return UNIT * (1.0 + 9.0 * s) + part * (2.0 * sqrt(s) + part);
+}
 
 fn upper_bits(x: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>(bitcast<vec3<u32>>(x) & vec3(0xfffff000u));
@@ -64,26 +76,24 @@ fn local_frame(ray: Ray, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>) ->
     let rest = direction_low * base_low + start_low;
     let origin = (bulk + middling) + rest;
 
-    let to_low = ((low - center) - origin) * inverse;
-    let to_high = ((high - center) - origin) * inverse;
+    // Faces are moved out by what rounding may do to the ray's points, not the stretch's ends: along a
+    // ray in the plane of a face no length would make up for it.
+    let extent = high - low;
+    let size = max(max(extent.x, extent.y), extent.z) + length(origin);
+    let slack = UNIT * (8.0 * size + 2.0 * length(middling));
+    let to_low = ((low - center) - origin - slack) * inverse;
+    let to_high = ((high - center) - origin + slack) * inverse;
     let near = min(to_low, to_high);
     let far = max(to_low, to_high);
     let enter = max(max(near.x, near.y), near.z);
     let leave = min(min(far.x, far.y), far.z);
     let start = -base_high - base_low;
-    // The stretch is widened by what rounding may have taken off it: four roundings of numbers no
-    // larger than these.
-    let extent = high - low;
-    let size = max(max(extent.x, extent.y), extent.z) + length(origin);
-    let widening = 8.0 * UNIT * size;
-    let last = min(leave + widening, (ray.t_max - base_high) - base_low);
+    let last = min(leave, (ray.t_max - base_high) - base_low);
 
-    // The longest local t of the stretch. What rounding does to v: numerics in certified.rs.
-    let longest = max(abs(enter), abs(leave)) + widening;
     let misplaced = UNIT * (4.0 * length(origin) + 2.0 * length(middling));
     return Frame(
         center, origin, base_high, base_low,
-        max(enter - widening, start), last, enter - widening <= start && start <= last,
-        26.0 * UNIT, 12.0 * UNIT * longest + 2.1 * misplaced, widening,
+        max(enter, start), last, enter <= start && start <= last,
+        misplaced, slack,
     );
 }

@@ -2,7 +2,7 @@
 // of the excess F - T. Derived in crates/fbvh/src/trace/certified.rs.
 #define_import_path metaball::fbvh::excess
 
-#import metaball::fbvh::local::{Frame, UNIT}
+#import metaball::fbvh::local::{depth_margin, misplacement, Frame, UNIT}
 #import metaball::fbvh::structure::lists
 #import metaball::fbvh::suspend::spent
 #import metaball::kernel::{kernel, kernel_slope, steepest_slope}
@@ -45,18 +45,21 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
         let inverse_radius = 1.0 / support.radius;
         let inverse_square = inverse_radius * inverse_radius;
         let off_square = dot(off_axis, off_axis);
-        // How far rounding can move v = 1 - r^2/R^2.
-        let margin = frame.margin + frame.margin_length * inverse_radius;
+        let to_end = high - middle;
+        let to_start = low - middle;
+        let s_end = (off_square + to_end * to_end) * inverse_square;
+        let s_start = (off_square + to_start * to_start) * inverse_square;
+        let misplaced = misplacement(frame, offset);
+        let margin = depth_margin(min(max(s_start, s_end), 1.0), misplaced, inverse_radius);
 
         let near = clamp(middle, low, high) - middle;
         let v_most = 1.0 - (off_square + near * near) * inverse_square + margin;
         if v_most <= 0.0 {
             continue;
         }
-        let to_end = high - middle;
-        let to_start = low - middle;
-        let v_end = 1.0 - (off_square + to_end * to_end) * inverse_square;
-        let v_start = 1.0 - (off_square + to_start * to_start) * inverse_square;
+        let v_end = 1.0 - s_end;
+        let v_start = 1.0 - s_start;
+        let v_least = min(v_start, v_end) - margin;
         let q = strength(ball);
         most += q * kernel(v_most);
         end_least += q * kernel(v_end - margin);
@@ -64,16 +67,16 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
         // projection, and bounded there by the product of what bounds its factors.
         var slope = 0.0;
         if middle >= high {
-            let gentlest = min(kernel_slope(v_start - margin), kernel_slope(v_end - margin));
-            slope = gentlest * max(middle - high, 0.0) * (1.0 - 16.0 * UNIT);
+            let gentlest = min(kernel_slope(v_least), kernel_slope(v_most));
+            slope = gentlest * max(-to_end - misplaced, 0.0) * (1.0 - 16.0 * UNIT);
         } else {
-            slope = -steepest_slope(v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
+            slope = -steepest_slope(v_least, v_most) * (to_end + misplaced) * (1.0 + 16.0 * UNIT);
         }
         least_slope += 2.0 * q * inverse_square * slope;
         radius = min(radius, support.radius);
     }
     // The sum of n terms of one sign, each of a few products, errs by less than this part of it.
-    let summing = f32(end - first + 24u) * UNIT;
+    let summing = f32(end - first + 16u) * UNIT;
     let threshold = scene.threshold;
     return Bounds(
         most * (1.0 + summing) - threshold, least_slope, end_least * (1.0 - summing) - threshold, radius,

@@ -290,7 +290,8 @@ fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
             let gentlest = min(kernel_slope(v_start - margin), kernel_slope(v_end - margin));
             slope = gentlest * max(middle - high, 0.0) * (1.0 - 16.0 * UNIT);
         } else {
-            slope = -steepest_slope(v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
+            let v_least = min(v_start, v_end) - margin;
+            slope = -steepest_slope(v_least, v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
         }
         least_slope += 2.0 * q * inverse_square * slope;
         radius = min(radius, support.radius);

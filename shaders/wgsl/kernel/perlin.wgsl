@@ -16,7 +16,11 @@ fn kernel_slope(v: f32) -> f32 {
     return 15.0 * rho * rest * rest;
 }
 
-// The greatest slope from the rim up to v. The slope peaks at rho = 1/3.
-fn steepest_slope(v: f32) -> f32 {
-    return select(kernel_slope(v), 20.0 / 9.0, v > 8.0 / 9.0);
+// The greatest slope between two values of v. The slope peaks at rho = 1/3.
+fn steepest_slope(least: f32, most: f32) -> f32 {
+    const PEAK: f32 = 8.0 / 9.0;
+    if least > PEAK {
+        return kernel_slope(least);
+    }
+    return select(kernel_slope(most), 20.0 / 9.0, most > PEAK);
 }

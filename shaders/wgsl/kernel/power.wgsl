@@ -28,7 +28,7 @@ fn power(v: f32, n: u32) -> f32 {
     return product;
 }
 
-// The greatest slope from the rim up to v: the slope grows with v.
-fn steepest_slope(v: f32) -> f32 {
-    return kernel_slope(v);
+// The greatest slope between two values of v: the slope grows with v.
+fn steepest_slope(least: f32, most: f32) -> f32 {
+    return kernel_slope(most);
 }

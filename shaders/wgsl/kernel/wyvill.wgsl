@@ -13,7 +13,7 @@ fn kernel_slope(v: f32) -> f32 {
     return depth * (10.0 + 12.0 * depth) * (1.0 / 9.0);
 }
 
-// The greatest slope from the rim up to v: the slope grows with v.
-fn steepest_slope(v: f32) -> f32 {
-    return kernel_slope(v);
+// The greatest slope between two values of v: the slope grows with v.
+fn steepest_slope(least: f32, most: f32) -> f32 {
+    return kernel_slope(most);
 }

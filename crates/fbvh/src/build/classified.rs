@@ -37,8 +37,12 @@ const TWICE: f32 = 0.6;
 /// smallest side that boxes are cut down to, hardly one of them would be off any list.
 const PILED: f32 = 0.125;
 
-/// Lists hold what reaches the box widened by this share of its sides: tracers may look so far past
-/// its faces (`widening` in `fbvh/local.wgsl`).
+/// A box of more least radii than this is cut whatever its list: in f32 a point of it would be known
+/// too badly for the least ball, to 2⁻²² of the box.
+const WIDEST: f32 = 16.0;
+
+/// Lists hold what reaches the box widened by this share of its longest side, and solid boxes are solid
+/// to there: tracers may look so far past its faces (`slack` in `fbvh/local.wgsl`).
 const WIDENED: f32 = 4e-6;
 
 impl Builder {
@@ -61,10 +65,12 @@ impl Builder {
             Some(plane) if part.depth < self.max_depth => plane,
             _ => return Division::Leaf(part.list.clone()),
         };
-        let wider = WIDENED * part.bounds.extent();
-        let face = widened(&face(&part.bounds, &plane), wider);
+        let side = part.bounds.extent().max_element();
+        let face = widened(&face(&part.bounds, &plane), side);
+        let is_wide = side > WIDEST * radii(&pool[part.list.clone()]).0;
         let (left, right) = divide(pool, &part.list, &plane, &face);
-        if left.len().min(right.len()) == part.list.len() && is_pile(&pool[part.list.clone()]) {
+        let tells_nothing = left.len().min(right.len()) == part.list.len();
+        if tells_nothing && !is_wide && is_pile(&pool[part.list.clone()]) {
             return Division::Leaf(part.list.clone());
         }
         let (left_bounds, right_bounds) = cut(&part.bounds, plane.axis, plane.at);
@@ -84,7 +90,7 @@ impl Builder {
     /// surface. `None` where they cannot.
     pub(super) fn classify(&self, pool: &mut [Ball], part: &Part) -> Option<Part> {
         let list = &mut pool[part.list.clone()];
-        if self.is_solid(list, &part.bounds) {
+        if self.is_solid(list, &widened(&part.bounds, part.bounds.extent().max_element())) {
             return Some(Part { list: part.list.start..part.list.start, ..*part });
         }
         let reach = Reach::of(Boxes::PerBall, self.kernel, self.threshold, list)?;
@@ -94,7 +100,7 @@ impl Builder {
         }
         let mut kept = list.len();
         if bounds != part.bounds {
-            kept = keep_reaching(list, &widened(&bounds, WIDENED * bounds.extent()));
+            kept = keep_reaching(list, &widened(&bounds, bounds.extent().max_element()));
         }
         // No list means solid; so what nothing reaches must not stay.
         (kept > 0).then(|| Part { list: part.list.start..part.list.start + kept, bounds, ..*part })
@@ -106,11 +112,12 @@ impl Builder {
         let side = part.bounds.extent()[axis];
         let (least, largest) = radii(list);
         let is_short = |radius: f32| side < classes.smallest_side * radius;
+        let is_wide = side > WIDEST * least;
         // The mean lies between the extremes, and takes longer.
-        if list.len() <= classes.leaf_size as usize
+        let is_small = list.len() <= classes.leaf_size as usize
             || is_short(least)
-            || is_short(largest) && is_short(self.mean_radius(list, &part.bounds))
-        {
+            || is_short(largest) && is_short(self.mean_radius(list, &part.bounds));
+        if is_small && !is_wide {
             return None;
         }
         let binned = || {
@@ -122,8 +129,8 @@ impl Builder {
         let plane = if side > TELLING * least { binned().unwrap_or(middle) } else { middle };
         // Neighbouring floats have no middle.
         let (low, high) = (part.bounds.min[plane.axis], part.bounds.max[plane.axis]);
-        (low < plane.at && plane.at < high && Self::tells_apart(classes, list, part, &plane))
-            .then_some(plane)
+        let tells = is_wide || Self::tells_apart(classes, list, part, &plane);
+        (low < plane.at && plane.at < high && tells).then_some(plane)
     }
 
     /// Whether a cut shortens the lists, where a box is almost small enough for a leaf.
@@ -187,7 +194,9 @@ impl Builder {
     }
 }
 
-fn widened(bounds: &Aabb, wider: Vec3) -> Aabb {
+/// The box that a tracer may look at for one whose longest side is `side`.
+fn widened(bounds: &Aabb, side: f32) -> Aabb {
+    let wider = Vec3::splat(WIDENED * side);
     Aabb { min: bounds.min - wider, max: bounds.max + wider }
 }
 

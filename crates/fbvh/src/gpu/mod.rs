@@ -24,9 +24,9 @@
 //! follows from how far the hit can be from the surface, u = 2⁻²³:
 //!
 //! - *The field's doubt.* The search knows F at the hit to ± δ, δ = Σ qᵢk′(vᵢ)·δvᵢ plus what it was
-//!   content with (nothing for the certified tree, tolerance·T for the published ones). δvᵢ is the
-//!   margin that the search itself uses: u(26 + (24·D + 2⁻⁸·t)/Rᵢ) in a leaf of diagonal D. So the
-//!   surface is within δ/|∇F| of the hit. The start's own field is bounded with the same margins, to
+//!   content with (nothing for the certified tree, tolerance·T for the published ones). δvᵢ is
+//!   u(26 + (24·D + 2⁻⁸·t)/Rᵢ) in a leaf of diagonal D, which no margin of the search itself exceeds.
+//!   So the surface is within δ/|∇F| of the hit. The start's own field is bounded with the same margins, to
 //!   ± δ again, and the gradient may halve on the way: 4δ/|∇F| along the normal put the start where
 //!   the search is certain of its side.
 //! - *Where the field is flat* a first-order step would be long, but there the field falls by

@@ -117,7 +117,7 @@ impl<F: Field> Tracer<'_, F> {
         let stretch = journey.stretch(&bounds)?;
         let list = self.list(leaf);
         counter.leaf_test(list.len());
-        // A leaf without a list is solid.
+        // A leaf without a list is solid, to farther past its faces than rounding reaches.
         if list.is_empty() {
             if question.crossing == Crossing::Out {
                 return None;

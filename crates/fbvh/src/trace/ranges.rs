@@ -21,9 +21,10 @@
 //! 32u(1 + |p − o′|/R)(1 + |p − o′|/R + |p − o|/R), which is added to v for upper bounds and taken off
 //! for lower ones. Each term of the sums is then right to 16u of itself and the sum of n of them to
 //! n·u more. The shader does the same in f32 from an origin beside the leaf (`fbvh/local.wgsl`), with
-//! u = 2⁻²³ and the distance |p − o′| ≤ R + L for balls that reach the leaf's stretch of length L:
-//! 8u + 12u·|p − o′|/R by the roundings of p − o′, projection, distance and division, hence its
-//! constants 26u and 12u·L.
+//! u = 2⁻²³ and what is left of it where r is less than R: projection and distance are misplaced by
+//! e = 6u·|p − o′| and what o′ itself is, so r² is by 2re + e²; squares, sums and division add 9u of
+//! r²/R², the last difference u. So balls that are seen near their centres, and short intervals, have
+//! the digits that they deserve.
 
 use glam::DVec3;
 use metaball_core::{Kernel, Ray};
@@ -211,7 +212,7 @@ impl Search<'_> {
             end_most += q * value_at(v_end + chord.margin);
             end_least += q * value_at(v_end - chord.margin);
             // Slopes are steep towards the projection, and 2·q·k′/R² times the way to it.
-            let gentle = || slope_at(v_start - chord.margin).min(slope_at(v_end - chord.margin));
+            let gentle = || slope_at(v_least).min(slope_at(v_most));
             let steepest = self.steepest(v_least, v_most);
             let (gain, loss) = if chord.middle >= high {
                 (steepest * (chord.middle - low), -gentle() * (chord.middle - high))

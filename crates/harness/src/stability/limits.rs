@@ -72,18 +72,10 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("effective-radii", &[(2.5, Lost), (3.0, Right)]),
         ],
     ),
-    // Undecided where it says so; what is broken are defects: a residual above 1e-4 of T, and hits
-    // that are late where balls coincide.
+    // An f32 distance from afar; at T = 10⁻¹² the surface is where v is 10⁻⁶, a few roundings of 1.
     (
         "fbvh-certified",
-        &[
-            ("distance", &[(1e5, Coarse)]),
-            ("radius-ratio", &[(1000.0, Broken), (1e6, Told)]),
-            ("background", &[(1e5, Broken)]),
-            ("threshold-near-zero", &[(1e-12, Told)]),
-            ("threshold-near-maximum", &[(1e-5, Told), (1e-6, Right), (0.0, Told), (-1e-3, Right)]),
-            ("grazing", &[(0.01, Told), (1e-3, Right), (1e-5, Told), (1e-6, Right)]),
-        ],
+        &[("distance", &[(1e5, Coarse)]), ("threshold-near-zero", &[(1e-12, Told)])],
     ),
     // Section 3: a cubic for the kernel; section 6: an array of 96 separators, three a ball.
     (
