@@ -59,15 +59,15 @@
 //! early.
 //!
 //! *Not in the paper:* [`robust`] is a renderer that is right where section 7 gives up, and
-//! [`baseline`] the CPU version that section 6 compares with. With [`Options::distinct_points`] points
-//! with one t are peeled by the index of their balls, and none is lost. It costs nothing but a number
-//! in the list: balls are drawn by rising index, and the depth test keeps the first.
+//! [`baseline`] the CPU version that section 6 compares with.
 //!
 //! # Practice
-//! Right wherever no two points along the ray before the surface coincide in f32 (unless they are
-//! told apart) and no more than K supports overlap there. With more than K the support itself is drawn,
-//! as section 7 says, and the hit is marked as a fallback; no list holds more than 30 balls. t errs by
-//! at most half the threshold times the interval's length.
+//! Right wherever no two points along the ray before the surface coincide in f32 and no more than K
+//! supports overlap there. With more than K the support itself is drawn, as section 7 says, and the hit
+//! is marked as a fallback; no list holds more than 30 balls. Nothing marks a coincident point: of those
+//! with one t only one ever comes up, and section 7 leaves out the check that would tell, for its cost.
+//! Two equal balls at one place are peeled as one. t errs by at most half the threshold times the
+//! interval's length.
 //!
 //! A frame that runs out of layers is incomplete and is drawn again with twice as many; so is one whose
 //! tiles have more balls than the device has room for, with that room. [`Renderer`]'s `frame_facts`

@@ -59,10 +59,6 @@ pub struct Options {
     /// Ranges that can wait on the short stack, 1 to 4; the paper's is 3 (section 5.4). It bears on
     /// time alone.
     pub stack_size: u32,
-    /// Whether points with one t are told apart by their balls' indices, so that none is lost where
-    /// several coincide (section 7, figure 9a). Not in the paper. Takes the place of one ball in the
-    /// list.
-    pub distinct_points: bool,
 }
 
 impl Default for Options {
@@ -76,7 +72,6 @@ impl Default for Options {
             clipping: Clipping::ShortStack,
             threshold: 1e-3,
             stack_size: 3,
-            distinct_points: false,
         }
     }
 }
@@ -84,24 +79,16 @@ impl Default for Options {
 /// Bytes of a pixel of one target: four f32.
 const TARGET_BYTES: u32 = 16;
 
+/// Numbers of a list before its balls: t of the last point, and how many balls follow.
+const HEAD: u32 = 2;
+
 /// Tiles on a side of the picture's grid at most: `MOST_TILES` of `tiles.wgsl` is its square.
 pub(crate) const MOST_TILES: u32 = 16;
 
 impl Options {
-    /// As robust as lists of a fixed length can be: no point is lost, and eight targets hold 29
-    /// balls.
-    pub fn robust() -> Self {
-        Self { list_capacity: 29, distinct_points: true, ..Self::default() }
-    }
-
-    /// Numbers of a list before its balls.
-    fn head(&self) -> u32 {
-        2 + u32::from(self.distinct_points)
-    }
-
     /// Targets of four f32 that hold a full list and what stands before it: N_buf.
     pub(crate) fn targets(&self) -> u32 {
-        (self.list_capacity + self.head()).div_ceil(4)
+        (self.list_capacity + HEAD).div_ceil(4)
     }
 
     /// Refuses what is out of range or beyond the adapter.
@@ -112,7 +99,7 @@ impl Options {
             .max_color_attachments
             .min(limits.max_color_attachment_bytes_per_sample / TARGET_BYTES)
             .min(8);
-        let longest = (4 * targets).saturating_sub(self.head());
+        let longest = (4 * targets).saturating_sub(HEAD);
         if !(1..=longest).contains(&self.list_capacity) {
             let found = self.list_capacity;
             return refused(format!(

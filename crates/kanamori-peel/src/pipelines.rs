@@ -166,13 +166,11 @@ impl Pipelines {
 
         // The ids of the override constants in the modules.
         let culling = ("32", f64::from(u8::from(options.culling)));
-        let distinct = ("37", f64::from(u8::from(options.distinct_points)));
         let tiles = ("38", f64::from(options.tiles));
         let mut searching = vec![
             culling,
             ("33", f64::from(options.threshold)),
             ("35", f64::from(options.list_capacity)),
-            distinct,
             tiles,
         ];
         if options.clipping == Clipping::ShortStack {
@@ -238,7 +236,7 @@ impl Pipelines {
                 vertex: "bound_ball",
                 fragment: "next_point",
                 triangles: options.outline.triangles(),
-                constants: &[distinct],
+                constants: &[],
                 layouts: &[frame, scene, drawing, &layouts.peeling],
                 targets: &[Some(POINT_FORMAT.into())],
                 depth: Some(Depth::KeepNearest),

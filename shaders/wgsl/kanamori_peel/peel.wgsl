@@ -11,11 +11,7 @@
 // Nothing lies nearer to an eye outside a support than this.
 const NEAREST: f32 = 1e-30;
 
-// Whether points with one t are told apart by their balls' indices, so that none is lost.
-@id(37) override by_index: bool = false;
-
-// The active balls; of the last point, t is the first number of the first layer, and where points are
-// told apart by index the ball is the third.
+// The active balls; t of the last point is the first number of the first layer.
 @group(3) @binding(0) var lists: texture_2d_array<f32>;
 
 struct Corner {
@@ -44,11 +40,12 @@ fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index
 }
 
 // Section 5.1: only the nearer of the two faces beyond the last point. A ball that the ray only
-// touches has no chord and does not come up at all.
+// touches has no chord and does not come up at all. Of points with one t the depth test keeps the one
+// drawn first, that of the lowest index, and the others are lost (section 7, figure 9a).
 @fragment
 fn next_point(corner: Corner) -> Point {
     let position = vec2<u32>(corner.position.xy);
-    let last = textureLoad(lists, position, 0, 0).xz;
+    let last = textureLoad(lists, position, 0, 0).x;
     let ray = rays[pixel_at(position)];
     let chord = chord_of(corner.to_center, corner.radius, ray.direction);
     let half = sqrt(max(chord.half_squared, 0.0));
@@ -56,17 +53,10 @@ fn next_point(corner: Corner) -> Point {
     let is_around = corner.around != 0u;
     let enter = max(chord.middle - half, NEAREST);
     let leave = select(chord.middle + half, max(chord.middle + half, NEAREST), is_around);
-    let ball = f32(corner.ball);
-    let t = select(leave, enter, !is_around && comes_after(vec2(enter, ball), last));
+    let t = select(leave, enter, !is_around && enter > last);
     let has_chord = is_around || chord.half_squared > 0.0 && enter < leave;
-    if !has_chord || !comes_after(vec2(t, ball), last) {
+    if !has_chord || t <= last {
         discard;
     }
-    return Point(vec2(t, ball), to_depth(t));
-}
-
-// Whether a point, t and ball, comes after another. Of points with one t the depth test keeps the one
-// drawn first: balls are drawn by rising index.
-fn comes_after(point: vec2<f32>, last: vec2<f32>) -> bool {
-    return point.x > last.x || by_index && point.x == last.x && point.y > last.y;
+    return Point(vec2(t, f32(corner.ball)), to_depth(t));
 }

@@ -14,8 +14,6 @@
 @id(32) override culling: bool = true;
 // K: the longest list. With what stands before it, it fills the targets at most.
 @id(35) override capacity: u32 = 14u;
-// Whether the last point's ball is kept, see peel.wgsl.
-@id(37) override by_index: bool = false;
 
 // Set for each tile that has a ray without an answer after this layer.
 @group(2) @binding(7) var<storage, read_write> rays_left: array<u32>;
@@ -26,9 +24,8 @@
 @group(3) @binding(1) var points: texture_2d<f32>;
 @group(3) @binding(2) var kernel_depth: texture_depth_2d;
 
-// A list as the targets keep it, in order: t of the last point, the number of balls, where it is kept
-// the last point's ball, the balls. t is NO_LIMIT once the ray has its answer. What a pipeline has no
-// target for goes nowhere.
+// A list as the targets keep it, in order: t of the last point, the number of balls, the balls. t is
+// NO_LIMIT once the ray has its answer. What a pipeline has no target for goes nowhere.
 struct Lists {
     @location(0) first: vec4<f32>,
     @location(1) second: vec4<f32>,
@@ -68,10 +65,10 @@ fn begin(@builtin(position) at: vec4<f32>) -> Lists {
     }
     if arranged.around > capacity {
         list::write_support(pixel, rays[pixel], 0.0, list::listed[0]);
-        return stored(vec2(NO_LIMIT, 0.0));
+        return stored(NO_LIMIT);
     }
     rays_left[tile_of(position)] = 1u;
-    return stored(vec2(0.0, -1.0));
+    return stored(0.0);
 }
 
 @fragment
@@ -79,7 +76,7 @@ fn test_layer(@builtin(position) at: vec4<f32>) -> Lists {
     let position = vec2<u32>(at.xy);
     let last = restore(position);
     if last == NO_LIMIT {
-        return stored(vec2(NO_LIMIT, 0.0));
+        return stored(NO_LIMIT);
     }
     count_layers(1u);
     let pixel = pixel_at(position);
@@ -89,7 +86,7 @@ fn test_layer(@builtin(position) at: vec4<f32>) -> Lists {
     if next != NO_LIMIT {
         rays_left[tile_of(position)] = 1u;
     }
-    return stored(vec2(next, point.y));
+    return stored(next);
 }
 
 // Searches the interval from the last point to the layer's. Returns the latter, or NO_LIMIT when the
@@ -146,23 +143,19 @@ fn restore(position: vec2<u32>) -> f32 {
     let head = textureLoad(lists, position, 0, 0);
     list::listed_count = u32(head.y);
     for (var k = 0u; k < list::listed_count; k++) {
-        let place = k + select(2u, 3u, by_index);
+        let place = k + 2u;
         let part = textureLoad(lists, position, place / 4u, 0);
         list::listed[k] = u32(part[place % 4u]);
     }
     return head.x;
 }
 
-// The list as it is now, after a point with this t and ball.
-fn stored(last: vec2<f32>) -> Lists {
-    let first = vec2(last.x, f32(list::listed_count));
-    let shift = select(0u, 1u, by_index);
-    let third = select(ball_at(0u), last.y, by_index);
+// The list as it is now, after a point with this t.
+fn stored(last: f32) -> Lists {
     return Lists(
-        vec4(first, third, ball_at(1u - shift)),
-        four_from(2u - shift), four_from(6u - shift), four_from(10u - shift),
-        four_from(14u - shift), four_from(18u - shift), four_from(22u - shift),
-        four_from(26u - shift),
+        vec4(last, f32(list::listed_count), ball_at(0u), ball_at(1u)),
+        four_from(2u), four_from(6u), four_from(10u), four_from(14u),
+        four_from(18u), four_from(22u), four_from(26u),
     );
 }
 
