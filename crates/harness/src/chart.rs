@@ -5,8 +5,8 @@ mod frontier;
 mod moved;
 mod page;
 pub mod plan;
+mod shortlist;
 mod stage;
-pub mod sweeps;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -28,7 +28,7 @@ use crate::measure::Sampling;
 use crate::numbers::decimal;
 use crate::output::write_atomically;
 use crate::record::{Adapter, Record, Status};
-use crate::setting::Setting;
+use crate::settings::Setting;
 
 /// Name and version of the format of `chart.json`.
 pub const SCHEMA: &str = "metaball-chart/1";

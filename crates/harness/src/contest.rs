@@ -14,7 +14,7 @@ use crate::picture::encode_png;
 use crate::record::{Adapter, Measured, Record, Status, WorkPerRay};
 use crate::reference::Reference;
 use crate::score::{Accuracy, is_murky, score};
-use crate::setting::Setting;
+use crate::settings::Setting;
 
 /// How to hold a contest.
 #[derive(Debug, Clone)]

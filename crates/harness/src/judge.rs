@@ -7,12 +7,14 @@ pub mod promise;
 pub mod refusals;
 pub mod stand_in;
 
+use illes_fraglist::Piece;
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Hit, Ray, Scene, Verdict};
 
 use self::promise::{Promise, promise_of};
 use self::stand_in::StandIn;
 use crate::score::{Judgement, WRONG_FRONT};
+use crate::settings::{Knobs, Setting};
 
 /// What a method is held to.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +52,41 @@ impl Terms {
             _ => Stop::Residual(1e-4),
         };
         Self { promise, stop }
+    }
+
+    /// What a method with its options set is held to.
+    ///
+    /// # Panics
+    /// When nobody has written down what the method promises.
+    pub fn of_setting(setting: &Setting) -> Self {
+        let preset = promise_of(setting.method.name);
+        match setting.knobs {
+            Knobs::Preset => Self::of(preset),
+            Knobs::Tree(_, trace) => {
+                Self { promise: preset, stop: Stop::Residual(f64::from(trace.tolerance)) }
+            }
+            Knobs::Peeling(options) => Self {
+                promise: Promise::Peeling { list_capacity: options.list_capacity as usize },
+                // Half the threshold, times two radii, and ten roundings of a distance of a few
+                // radii.
+                stop: Stop::Distance(f64::from(options.threshold) + 9e-6),
+            },
+            Knobs::Fragments(illes_fraglist::Options { piece: Piece::Robust, .. }) => {
+                Self::of(preset)
+            }
+            Knobs::Fragments(illes_fraglist::Options { piece, room, .. }) => {
+                Self::of(Promise::Fragments { piece, room })
+            }
+        }
+    }
+
+    /// The |Δt|/R that 99 of 100 hits keep within: the reach of a default root finder, or where a
+    /// cubic stands for the field, that of a wrong front.
+    pub fn tolerance(&self) -> f64 {
+        match self.promise {
+            Promise::Fragments { piece, .. } if !piece.is_exact() => WRONG_FRONT,
+            _ => 1e-3,
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 //! [`cpu`] and [`shade`] draw where there is no adapter.
 
 pub mod animate;
+pub mod auto;
 pub mod chart;
 pub mod compare;
 pub mod conclusions;
@@ -34,7 +35,7 @@ pub mod reference;
 pub mod render;
 pub mod report;
 pub mod score;
-pub mod setting;
+pub mod settings;
 pub mod shade;
 pub mod sheet;
 pub mod stability;

@@ -5,19 +5,22 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 
+use anyhow::{Context, bail, ensure};
 use bench_scenes::{Case, LoadError, NumberedPath, Overrides, kernel_named};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use harness::animate::{self, animate};
+use harness::auto::MAX_ERROR;
+use harness::auto::cache::Cache;
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
 use harness::contest::Rules;
 use harness::light::LightOptions;
 use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, METHODS, Method, find};
 use harness::picture::picture_named;
-use harness::render::{Device, Drawing, Order, render};
-use harness::setting::Setting;
-use harness::stability::entrants::{Entrant, entrants};
+use harness::render::{Choosing, Device, Drawing, Order, render};
+use harness::settings::Setting;
+use harness::settings::variants::entrants;
 use harness::stability::{self, stability};
 use harness::tables::{gourmel, illes, kanamori, peers};
 use harness::{chart, console, list};
@@ -65,6 +68,13 @@ enum Command {
     Render {
         #[command(flatten)]
         drawing: Box<DrawingArgs>,
+        /// Draw with the quickest method and options whose error on this scene is at most so many mean
+        /// support radii for 99 of 100 hits, with no wrong verdict [default of auto: 1e-3].
+        #[arg(long, value_name = "E", value_parser = max_error)]
+        max_error: Option<f64>,
+        /// With auto, neither look for a choice made earlier nor keep the one made now.
+        #[arg(long)]
+        ignore_cache: bool,
         /// Where the PNG goes.
         #[arg(long, value_name = "FILE", default_value = "out/image.png")]
         out: PathBuf,
@@ -116,7 +126,7 @@ enum Command {
         cases: Vec<&'static Case>,
         /// Methods and their options, separated by commas; all when left out.
         #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = entrant_parser())]
-        methods: Vec<Entrant>,
+        methods: Vec<Setting>,
         /// Folder for index.html and records.json.
         #[arg(long, value_name = "DIR", default_value = "out/stability")]
         out: PathBuf,
@@ -221,9 +231,9 @@ struct DrawingArgs {
     /// A known name, a generator such as scattered:50000, or a file; for animate one that moves, such
     /// as tornado:4000 or particles-%04d.xyz.
     scene: String,
-    /// The method.
-    #[arg(long, value_name = "NAME", default_value = "fbvh-certified", value_parser = method_parser())]
-    method: &'static Method,
+    /// The method; fbvh-certified when left out. For render, auto chooses: see --max-error.
+    #[arg(long, value_name = "NAME", value_parser = drawer_parser())]
+    method: Option<String>,
     /// What the picture shows: phong, normal, depth, color, spheres, or work:COUNTER.
     #[arg(long, value_name = "WHAT", default_value = "phong", value_parser = picture_named)]
     picture: Picture,
@@ -237,11 +247,14 @@ struct DrawingArgs {
 }
 
 impl DrawingArgs {
-    fn drawing(self) -> Drawing {
+    /// With the default method where another is chosen in its place.
+    fn drawing(self) -> anyhow::Result<Drawing> {
         let Self { scene, method, picture, cpu, light, common } = self;
+        let name = method.as_deref().filter(|&name| name != AUTO).unwrap_or(DEFAULT_METHOD);
+        let method = find(name).with_context(|| format!("no method is called {name}"))?;
         let (overrides, size) = (common.overrides(), common.size());
         let device = if cpu { Device::Cpu } else { Device::Adapter(common.adapter()) };
-        Drawing { scene, overrides, method, size, picture, light, device }
+        Ok(Drawing { scene, overrides, method, size, picture, light, device })
     }
 }
 
@@ -340,6 +353,40 @@ fn method_parser() -> impl TypedValueParser<Value = &'static Method> {
     PossibleValuesParser::new(names).map(|name| find(&name).expect("only names of methods pass"))
 }
 
+/// A method by name, or `auto`.
+fn drawer_parser() -> impl TypedValueParser<Value = String> {
+    let names = METHODS.iter().map(|method| PossibleValue::new(method.name).help(method.title));
+    let auto = PossibleValue::new(AUTO).help("The quickest that is right enough");
+    PossibleValuesParser::new(names.chain([auto]))
+}
+
+const AUTO: &str = "auto";
+
+/// Who draws unless told.
+const DEFAULT_METHOD: &str = "fbvh-certified";
+
+/// Whether to choose who draws; an error is asked of `auto` alone.
+fn choosing(
+    name: Option<&str>,
+    max_error: Option<f64>,
+    ignore_cache: bool,
+) -> anyhow::Result<Option<Choosing>> {
+    if name == Some(AUTO) || (name.is_none() && max_error.is_some()) {
+        let cache = if ignore_cache { Cache::none() } else { Cache::of_user() };
+        return Ok(Some(Choosing { max_error: max_error.unwrap_or(MAX_ERROR), cache }));
+    }
+    let name = name.unwrap_or(DEFAULT_METHOD);
+    ensure!(max_error.is_none(), "--max-error: needed --method auto, found --method {name}");
+    ensure!(!ignore_cache, "--ignore-cache: needed --method auto, found --method {name}");
+    Ok(None)
+}
+
+/// An error in mean support radii.
+fn max_error(text: &str) -> Result<f64, String> {
+    let error = text.parse().ok().filter(|error: &f64| error.is_finite() && *error > 0.0);
+    error.ok_or_else(|| "needed a number above 0, in mean support radii, such as 1e-3".to_owned())
+}
+
 /// A stability case by name.
 fn case_parser() -> impl TypedValueParser<Value = &'static Case> {
     let named = |name: &str| bench_scenes::cases().iter().find(|case| case.name == name);
@@ -349,8 +396,10 @@ fn case_parser() -> impl TypedValueParser<Value = &'static Case> {
 }
 
 /// A method, or one with an option turned, by name.
-fn entrant_parser() -> impl TypedValueParser<Value = Entrant> {
-    let names = entrants().into_iter().map(|entrant| PossibleValue::new(entrant.name));
+fn entrant_parser() -> impl TypedValueParser<Value = Setting> {
+    // Names on the command line live as long as the program.
+    let leak = |entrant: Setting| PossibleValue::new(&*entrant.name.leak());
+    let names = entrants().into_iter().map(leak);
     PossibleValuesParser::new(names).map(|name| {
         let mut all = entrants().into_iter();
         all.find(|entrant| entrant.name == name).expect("only names of entrants pass")
@@ -390,11 +439,15 @@ fn run(command: Command) -> anyhow::Result<()> {
             let (overrides, adapter) = (common.overrides(), common.adapter());
             compare(&Comparison { scenes, overrides, rules, adapter, out })
         }
-        Command::Render { drawing, out, hits, light_out } => {
-            render(&Order { drawing: drawing.drawing(), out, hits, light_out })
+        Command::Render { drawing, max_error, ignore_cache, out, hits, light_out } => {
+            let auto = choosing(drawing.method.as_deref(), max_error, ignore_cache)?;
+            render(&Order { drawing: drawing.drawing()?, auto, out, hits, light_out })
         }
         Command::Animate { drawing, frames, every, out, sheet, force, in_turn } => {
-            let (drawing, frames) = (drawing.drawing(), frames.map(|FrameRange(range)| range));
+            if drawing.method.as_deref() == Some(AUTO) {
+                bail!("auto chooses for one picture: for frames name a method");
+            }
+            let (drawing, frames) = (drawing.drawing()?, frames.map(|FrameRange(range)| range));
             animate(&animate::Order { drawing, frames, every, out, sheet, force, in_turn })
         }
         Command::Tables { paper: Paper::Gourmel { quick, size, out, device } } => {
@@ -508,6 +561,25 @@ mod tests {
             panic!("a legal command line");
         };
         assert!(quick && cases.len() == 2 && methods[0].name == "kanamori+fine");
+    }
+
+    #[test]
+    fn an_error_asks_for_auto() {
+        let chosen = |line: &str| {
+            let Ok(Command::Render { drawing, max_error, ignore_cache, .. }) = parse(line) else {
+                panic!("a legal command line");
+            };
+            choosing(drawing.method.as_deref(), max_error, ignore_cache)
+        };
+        let error = |line| chosen(line).expect("consistent").map(|choosing| choosing.max_error);
+        assert_eq!(error("metaball render molecule"), None);
+        assert_eq!(error("metaball render molecule --method illes"), None);
+        assert_eq!(error("metaball render molecule --method auto"), Some(MAX_ERROR));
+        assert_eq!(error("metaball render molecule --max-error 0.05"), Some(0.05));
+        let line = "metaball render molecule --method illes --max-error 0.05";
+        assert!(chosen(line).expect_err("a contradiction").to_string().contains("auto"));
+        assert!(parse("metaball render molecule --max-error 0").is_err());
+        assert!(parse("metaball render molecule --max-error NaN").is_err());
     }
 
     #[test]

@@ -2,21 +2,25 @@
 
 use std::path::PathBuf;
 
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use bench_scenes::{BenchScene, Overrides, load};
 use metaball_core::gpu::{
-    self, AdapterChoice, Gpu, GpuError, IsoRenderer, Picture, RenderError, Shaded, Shading, Targets,
+    self, AdapterChoice, BuildReport, Gpu, GpuError, IsoRenderer, Picture, RenderError, Shaded,
+    Shading, Targets,
 };
 use metaball_core::{Hit, Scene, View};
 
+use crate::auto::Auto;
+use crate::auto::cache::Cache;
 use crate::console::Progress;
 use crate::hits_exr::write_hits;
 use crate::light::{self, LightOptions, Lit, write_light};
 use crate::measure::milliseconds;
-use crate::methods::Method;
+use crate::methods::{Method, tree_options};
 use crate::numbers::{decimal, grouped};
 use crate::output::write_atomically;
 use crate::picture::encode_png;
+use crate::settings::sweeps::candidates;
 use crate::shade::{self, Look};
 use crate::{console, cpu};
 
@@ -25,12 +29,23 @@ use crate::{console, cpu};
 pub struct Order {
     /// What to draw and how.
     pub drawing: Drawing,
+    /// How to choose who draws, in the place of the drawing's method.
+    pub auto: Option<Choosing>,
     /// Where the PNG goes.
     pub out: PathBuf,
     /// Where the hits go, if anywhere.
     pub hits: Option<PathBuf>,
     /// Where the linear light goes, if anywhere; only with effects.
     pub light_out: Option<PathBuf>,
+}
+
+/// Whatever is quickest on the scene and right enough; light needs a tree.
+#[derive(Debug, Clone)]
+pub struct Choosing {
+    /// The largest error, mean support radii.
+    pub max_error: f64,
+    /// Where choices are kept.
+    pub cache: Cache,
 }
 
 /// What to draw and how: a picture, or each frame of a moving scene.
@@ -64,6 +79,8 @@ pub enum Device {
 
 /// What was drawn.
 pub(crate) struct Drawn {
+    /// The method, or what was chosen and why, as names and texts.
+    account: Vec<(&'static str, String)>,
     hits: Vec<Hit>,
     pub(crate) shaded: Shaded,
     pub(crate) build_ms: f64,
@@ -83,7 +100,10 @@ pub fn render(order: &Order) -> anyhow::Result<()> {
     let (width, height) = drawing.size;
     let view = View::new(*camera, width, height)?;
     let drawn = match open(&drawing.device)? {
-        Some(gpu) => on_adapter(&gpu, drawing, scene, &view)?,
+        Some(gpu) => on_adapter(&gpu, order, scene, &view)?,
+        None if order.auto.is_some() => {
+            bail!("auto needs a graphics adapter to measure methods on; for the CPU name a method")
+        }
         None => on_cpu(drawing, scene, &view)?,
     };
     write_atomically(&order.out, &encode_png(&drawn.shaded.image)?)?;
@@ -96,17 +116,19 @@ pub fn render(order: &Order) -> anyhow::Result<()> {
 
     let balls = format!("{} of kernel {}", grouped(scene.len()), scene.kernel());
     let hit_count = drawn.hits.iter().filter(|hit| hit.is_hit()).count();
-    let facts = [
+    let mut facts = vec![
         ("scene", name.clone()),
         ("balls", balls),
         ("threshold", scene.threshold().to_string()),
-        ("method", format!("{} ({})", drawing.method.name, drawing.method.paper)),
+    ];
+    facts.extend(drawn.account);
+    facts.extend([
         ("adapter", drawn.device),
         ("build", format!("{} ms", decimal(drawn.build_ms))),
         ("frame", format!("{} ms", decimal(drawn.frame_ms))),
         ("hits", format!("{} of {} rays", grouped(hit_count), grouped(drawn.hits.len()))),
         ("picture", order.out.display().to_string()),
-    ];
+    ]);
     for (name, value) in facts {
         console::line(&format!("{name:<10} {value}"));
     }
@@ -137,10 +159,10 @@ pub(crate) fn open(device: &Device) -> anyhow::Result<Option<Gpu>> {
 }
 
 /// The time is that of a second frame, since shaders are compiled with the first.
-fn on_adapter(gpu: &Gpu, drawing: &Drawing, scene: &Scene, view: &View) -> anyhow::Result<Drawn> {
+fn on_adapter(gpu: &Gpu, order: &Order, scene: &Scene, view: &View) -> anyhow::Result<Drawn> {
+    let drawing = &order.drawing;
     let targets = drawing.targets(gpu, scene)?;
-    let mut renderer = drawing.renderer();
-    let build = renderer.build(gpu, scene)?;
+    let Built { mut renderer, build, account } = built(gpu, order, scene, view)?;
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let hits = targets.read_hits(gpu)?;
@@ -154,6 +176,7 @@ fn on_adapter(gpu: &Gpu, drawing: &Drawing, scene: &Scene, view: &View) -> anyho
         None => (Shading::new(gpu).draw(&targets, view, scene, drawing.picture)?, None),
     };
     Ok(Drawn {
+        account,
         hits,
         shaded,
         lit,
@@ -161,6 +184,36 @@ fn on_adapter(gpu: &Gpu, drawing: &Drawing, scene: &Scene, view: &View) -> anyho
         frame_ms: milliseconds(frame.wall),
         device: drawing.device_name(Some(gpu)),
     })
+}
+
+/// A renderer that has its scene.
+struct Built {
+    renderer: Box<dyn IsoRenderer>,
+    build: BuildReport,
+    account: Vec<(&'static str, String)>,
+}
+
+fn built(gpu: &Gpu, order: &Order, scene: &Scene, view: &View) -> anyhow::Result<Built> {
+    let drawing = &order.drawing;
+    let Some(Choosing { max_error, cache }) = &order.auto else {
+        let mut renderer = drawing.renderer();
+        let build = renderer.build(gpu, scene)?;
+        return Ok(Built { renderer, build, account: account_of(drawing.method) });
+    };
+    console::note("auto: drawing with every candidate, and asking the oracle");
+    let mut candidates = candidates();
+    if drawing.light.is_asked() {
+        candidates.retain(|setting| tree_options(setting.method.name).is_some());
+    }
+    let counting = drawing.counts();
+    let mut auto = Auto::new(candidates, view.clone(), *max_error, cache.clone(), counting);
+    let build = auto.build(gpu, scene)?;
+    let account = auto.account();
+    Ok(Built { renderer: Box::new(auto), build, account })
+}
+
+fn account_of(method: &Method) -> Vec<(&'static str, String)> {
+    vec![("method", format!("{} ({})", method.name, method.paper))]
 }
 
 /// Traces and shades without an adapter.
@@ -172,6 +225,7 @@ pub(crate) fn on_cpu(drawing: &Drawing, scene: &Scene, view: &View) -> anyhow::R
     let look = Look::of(drawing.picture)?;
     let traced = cpu::trace(drawing.method, scene, view)?;
     Ok(Drawn {
+        account: account_of(drawing.method),
         shaded: shade::draw(scene, view, &traced.rays, &traced.hits, look),
         hits: traced.hits,
         lit: None,
@@ -226,11 +280,13 @@ mod tests {
             device: Device::Cpu,
         };
         let (out, hits) = (folder.join("image.png"), Some(folder.join("hits.exr")));
-        let mut order = Order { drawing, out, hits, light_out: None };
+        let mut order = Order { drawing, auto: None, out, hits, light_out: None };
         render(&order).expect("drawn");
         assert!(order.out.is_file() && folder.join("hits.exr").is_file());
         order.drawing.picture = Picture::Spheres;
         assert!(render(&order).expect_err("refused").to_string().contains("graphics adapter"));
+        order.auto = Some(Choosing { max_error: 1e-3, cache: Cache::none() });
+        assert!(render(&order).expect_err("refused").to_string().contains("name a method"));
         std::fs::remove_dir_all(folder).expect("removable");
     }
 

@@ -2,7 +2,6 @@
 //! the method says so.
 
 pub mod cell;
-pub mod entrants;
 pub mod limits;
 mod page;
 pub mod record;
@@ -15,12 +14,13 @@ use bench_scenes::{Case, cases};
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
 use self::cell::{Cell, Outcome};
-use self::entrants::{Entrant, entrants};
 use self::record::{Limit, SCHEMA, Stability};
 use self::stand::Stand;
 use crate::console::{self, Progress, table};
 use crate::machine::{self, Machine};
 use crate::output::write_atomically;
+use crate::settings::Setting;
+use crate::settings::variants::entrants;
 
 /// What to try.
 #[derive(Debug, Clone)]
@@ -29,8 +29,8 @@ pub struct Order {
     pub quick: bool,
     /// Names of cases; all when empty.
     pub cases: Vec<&'static Case>,
-    /// Entrants; all when empty.
-    pub methods: Vec<Entrant>,
+    /// Methods with their options; all when empty.
+    pub methods: Vec<Setting>,
     /// What to draw with.
     pub adapter: AdapterChoice,
     /// Folder for `index.html` and `records.json`.
@@ -65,8 +65,8 @@ pub fn stability(order: &Order) -> anyhow::Result<()> {
         stability.write(&unfinished)
     })?;
 
-    let limit_of = |case: &&Case, method: &Entrant| {
-        Limit::of(case, &stability.of(case.name, method.name).collect::<Vec<_>>())
+    let limit_of = |case: &&Case, method: &Setting| {
+        Limit::of(case, &stability.of(case.name, &method.name).collect::<Vec<_>>())
     };
     let of_case = |case| methods.iter().filter_map(move |method| limit_of(case, method));
     stability.limits = chosen.iter().flat_map(of_case).collect();
@@ -88,7 +88,7 @@ fn values(case: &Case, quick: bool) -> &'static [f64] {
 fn climb(
     gpu: &Gpu,
     quick: bool,
-    (cases, methods): (&[&'static Case], &[Entrant]),
+    (cases, methods): (&[&'static Case], &[Setting]),
     mut cells: Vec<Cell>,
     mut keep: impl FnMut(&[Cell]) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
@@ -97,7 +97,7 @@ fn climb(
     if !cells.is_empty() {
         progress.note("Going on where an interrupted run has stopped.");
     }
-    let mut stand = Stand::new(gpu, methods.iter().copied());
+    let mut stand = Stand::new(gpu, methods.iter().cloned());
     for case in cases {
         progress.stage(case.name.to_owned());
         for &value in values(case, quick) {
@@ -120,12 +120,12 @@ fn remove(path: &Path) {
 }
 
 /// The limits as text: one line a case, one column a method.
-fn summary(stability: &Stability, cases: &[&Case], methods: &[Entrant]) -> String {
+fn summary(stability: &Stability, cases: &[&Case], methods: &[Setting]) -> String {
     let mut headings = vec!["first value that is not right"];
-    headings.extend(methods.iter().map(|method| method.name));
+    headings.extend(methods.iter().map(|method| method.name.as_str()));
     let row = |case: &&Case| {
-        let limit = |method: &Entrant| {
-            stability.limit(case.name, method.name).map_or_else(String::new, |limit| {
+        let limit = |method: &Setting| {
+            stability.limit(case.name, &method.name).map_or_else(String::new, |limit| {
                 let value = limit
                     .fails_at
                     .map_or_else(String::new, |value| format!(" {}", page::tick(value)));

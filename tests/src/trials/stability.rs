@@ -2,9 +2,10 @@
 //! else, and says so where it is stated to.
 
 use bench_scenes::cases;
-use harness::methods::METHODS;
+use harness::judge::terms_of;
+use harness::settings::Setting;
+use harness::settings::variants::entrants;
 use harness::stability::cell::{Cell, Outcome};
-use harness::stability::entrants::{Entrant, entrants};
 use harness::stability::limits::expected;
 use harness::stability::stand::Stand;
 use libtest_mimic::{Failed, Trial};
@@ -15,22 +16,22 @@ use super::on_gpu;
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials: Vec<_> = entrants()
         .into_iter()
-        .filter(|entrant| METHODS.iter().any(|method| method.name == entrant.name))
+        .filter(|entrant| entrant.options.is_empty())
         .map(|entrant| {
             let name = format!("stability::{}", entrant.name);
-            on_gpu(name, move |gpu| is_as_stated(gpu, entrant))
+            on_gpu(name, move |gpu| is_as_stated(gpu, &entrant))
         })
         .collect();
     trials.push(on_gpu("stability::canary".to_owned(), notices_a_broken_promise));
     trials
 }
 
-fn is_as_stated(gpu: &Gpu, entrant: Entrant) -> Result<(), Failed> {
-    let mut stand = Stand::new(gpu, [entrant]);
+fn is_as_stated(gpu: &Gpu, entrant: &Setting) -> Result<(), Failed> {
+    let mut stand = Stand::new(gpu, [entrant.clone()]);
     let mut wrong = String::new();
     for case in cases() {
         for &value in case.quick {
-            let needed = expected(entrant.name, case, value);
+            let needed = expected(&entrant.name, case, value);
             for found in stand.attempt(case, value)? {
                 if found.outcome != needed {
                     wrong += &format!("\n  needed {needed:?}, found {found:?}");
@@ -45,15 +46,13 @@ fn is_as_stated(gpu: &Gpu, entrant: Entrant) -> Result<(), Failed> {
 fn notices_a_broken_promise(gpu: &Gpu) -> Result<(), Failed> {
     let find = |name: &str| entrants().into_iter().find(|entrant| entrant.name == name);
     let published = find("kanamori").ok_or("no entrant is called kanamori")?;
-    let robust = find("kanamori-robust").ok_or("no entrant is called kanamori-robust")?;
-    let mut pretender = published;
-    pretender.terms = robust.terms;
     let case = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
-    let outcome = |entrant| -> Result<Vec<Outcome>, Failed> {
-        let cells: Vec<Cell> = Stand::new(gpu, [entrant]).attempt(case, 2.0)?;
+    let outcome = |terms| -> Result<Vec<Outcome>, Failed> {
+        let stand = &mut Stand::holding(gpu, [(published.clone(), terms)]);
+        let cells: Vec<Cell> = stand.attempt(case, 2.0)?;
         Ok(cells.iter().map(|cell| cell.outcome).collect())
     };
-    let found = (outcome(published)?, outcome(pretender)?);
+    let found = (outcome(terms_of("kanamori"))?, outcome(terms_of("kanamori-robust"))?);
     if found != (vec![Outcome::Lost], vec![Outcome::Broken]) {
         return Err(format!("needed Lost, then Broken, found {found:?}").into());
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Chart;
 use crate::record::{Record, Samples};
-use crate::setting::label;
+use crate::settings::label;
 
 /// How the times of two runs compare.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sweeps;
 use crate::compare::DEFAULT_SCENES;
-use crate::setting::Setting;
+use crate::settings::{Setting, sweeps};
 
 /// How much to measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,8 +4,7 @@ use metaball_core::reference::Truth;
 use metaball_core::{Hit, Verdict};
 use serde::{Deserialize, Serialize};
 
-use super::entrants::Entrant;
-use crate::judge::{Exam, Ruling};
+use crate::judge::{Exam, Ruling, Terms};
 use crate::score::{Finding, Judgement, RadiusError};
 use crate::stats::{quantile, sorted};
 
@@ -73,11 +72,11 @@ pub struct Cell {
 
 impl Cell {
     /// A method that draws nothing and says why.
-    pub(super) fn refused(case: &str, value: f64, entrant: &Entrant, reason: String) -> Self {
+    pub(super) fn refused(case: &str, value: f64, entrant: &str, reason: String) -> Self {
         Self {
             case: case.to_owned(),
             value,
-            method: entrant.name.to_owned(),
+            method: entrant.to_owned(),
             outcome: Outcome::Told,
             clear: 0,
             ambiguous: 0,
@@ -94,7 +93,7 @@ impl Cell {
     /// `must_repeat` says that there may be none.
     pub(super) fn judged(
         (case, value): (&str, f64),
-        entrant: &Entrant,
+        (entrant, terms): (&str, &Terms),
         (exam, hits): (&Exam<'_>, &[Hit]),
         differing: Option<usize>,
         must_repeat: bool,
@@ -107,7 +106,7 @@ impl Cell {
         };
         let mut errors = Vec::new();
         for (ray, (truth, hit)) in exam.truths().iter().zip(hits).enumerate() {
-            cell.count((exam, ray), (truth, hit), entrant, &mut errors);
+            cell.count((exam, ray), (truth, hit), terms, &mut errors);
         }
         let errors = sorted(errors);
         cell.error = quantile(&errors, 1.0).map(|max| RadiusError {
@@ -126,7 +125,7 @@ impl Cell {
             Outcome::Lost
         } else if cell.told > 0 {
             Outcome::Told
-        } else if cell.error.is_some_and(|error| error.p99 > entrant.tolerance()) {
+        } else if cell.error.is_some_and(|error| error.p99 > terms.tolerance()) {
             Outcome::Coarse
         } else {
             Outcome::Right
@@ -138,7 +137,7 @@ impl Cell {
         &mut self,
         (exam, ray): (&Exam<'_>, usize),
         (truth, hit): (&Truth, &Hit),
-        entrant: &Entrant,
+        terms: &Terms,
         errors: &mut Vec<f64>,
     ) {
         if truth.is_ambiguous() {
@@ -151,7 +150,7 @@ impl Cell {
             return;
         }
         let judgement = Judgement::new(truth, hit);
-        match exam.rule(ray, hit, &entrant.terms) {
+        match exam.rule(ray, hit, terms) {
             Err(violation) => {
                 self.broken += 1;
                 self.note.get_or_insert(violation);

@@ -181,7 +181,7 @@ mod tests {
     use bench_scenes::cases;
 
     use super::*;
-    use crate::stability::entrants::entrants;
+    use crate::settings::variants::entrants;
 
     #[test]
     fn every_limit_is_of_an_entrant_and_at_values_of_a_case() {

@@ -5,14 +5,14 @@ use std::fmt::Write;
 use bench_scenes::Case;
 
 use super::cell::{Cell, Outcome};
-use super::entrants::Entrant;
 use super::record::{Limit, Stability};
 use crate::html::{escape, fill};
 use crate::numbers::small;
 use crate::report::{STYLE, fact, provenance, remark_paragraphs};
+use crate::settings::Setting;
 
 /// The page; needs no other file and no network.
-pub(super) fn page(stability: &Stability, cases: &[&Case], entrants: &[Entrant]) -> String {
+pub(super) fn page(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
     let adapter = &stability.adapter;
     let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
     let (command, commit) = (&stability.command, &stability.commit);
@@ -72,7 +72,7 @@ fn legend() -> String {
     format!("<ul class=\"key-list\">\n{items}</ul>\n")
 }
 
-fn matrix(stability: &Stability, cases: &[&Case], entrants: &[Entrant]) -> String {
+fn matrix(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
     let mut rows = String::new();
     let mut subject = None;
     for case in cases {
@@ -100,26 +100,26 @@ fn matrix(stability: &Stability, cases: &[&Case], entrants: &[Entrant]) -> Strin
     )
 }
 
-fn headings(entrants: &[Entrant]) -> String {
-    let heading = |entrant: &Entrant| {
+fn headings(entrants: &[Setting]) -> String {
+    let heading = |entrant: &Setting| {
         let class = if entrant.name.contains('+') { " class=\"option\"" } else { "" };
-        format!("<th{class} title=\"{}\">{}</th>", entrant.name, escape(entrant.title))
+        format!("<th{class} title=\"{}\">{}</th>", entrant.name, escape(&entrant.title))
     };
     entrants.iter().map(heading).collect()
 }
 
 /// In how many cases a method is right throughout.
-fn held(stability: &Stability, entrant: &Entrant) -> String {
+fn held(stability: &Stability, entrant: &Setting) -> String {
     let of = stability.limits.iter().filter(|limit| limit.method == entrant.name);
     let held = of.clone().filter(|limit| limit.fails_at.is_none()).count();
     format!("<td>{held} of {}</td>", of.count())
 }
 
-fn limit_cell(stability: &Stability, case: &Case, entrant: &Entrant) -> String {
-    let Some(limit) = stability.limit(case.name, entrant.name) else {
+fn limit_cell(stability: &Stability, case: &Case, entrant: &Setting) -> String {
+    let Some(limit) = stability.limit(case.name, &entrant.name) else {
         return "<td></td>".to_owned();
     };
-    let squares = stability.of(case.name, entrant.name).map(|cell| {
+    let squares = stability.of(case.name, &entrant.name).map(|cell| {
         let is_unexpected = limit.unexpected.contains(&cell.value);
         (cell.outcome, title(cell), is_unexpected)
     });
@@ -199,13 +199,13 @@ fn title(cell: &Cell) -> String {
 }
 
 /// A case with every number.
-fn section(stability: &Stability, case: &Case, entrants: &[Entrant]) -> String {
+fn section(stability: &Stability, case: &Case, entrants: &[Setting]) -> String {
     let Some(first) = entrants.first() else { return String::new() };
     let row = |of_first: &Cell| {
         let cells: String = entrants
             .iter()
             .map(|entrant| {
-                let mut of_entrant = stability.of(case.name, entrant.name);
+                let mut of_entrant = stability.of(case.name, &entrant.name);
                 of_entrant
                     .find(|cell| cell.value == of_first.value)
                     .map_or_else(|| "<td></td>".to_owned(), value_cell)
@@ -221,7 +221,7 @@ fn section(stability: &Stability, case: &Case, entrants: &[Entrant]) -> String {
             judged.map_or_else(String::new, |cell| format!("{} + {}", cell.clear, cell.ambiguous));
         format!("<tr><th>{}</th><td>{rays}</td>{cells}</tr>\n", tick(of_first.value))
     };
-    let rows: String = stability.of(case.name, first.name).map(row).collect();
+    let rows: String = stability.of(case.name, &first.name).map(row).collect();
     let (name, about, parameter) = (case.name, escape(case.about), escape(case.parameter));
     format!(
         "<section class=\"case\" id=\"{name}\"><h3><code>{name}</code></h3>\n<p>{about} Turned: \

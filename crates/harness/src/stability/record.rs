@@ -121,10 +121,10 @@ mod tests {
 
     use super::*;
     use crate::output::tests::scratch;
-    use crate::stability::entrants::entrants;
+    use crate::settings::variants::entrants;
 
     fn cell(value: f64, outcome: Outcome) -> Cell {
-        let refused = Cell::refused("distance", value, &entrants()[0], "why".to_owned());
+        let refused = Cell::refused("distance", value, &entrants()[0].name, "why".to_owned());
         Cell { outcome, ..refused }
     }
 

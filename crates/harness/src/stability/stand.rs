@@ -6,8 +6,8 @@ use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Scene, View};
 
 use super::cell::Cell;
-use super::entrants::Entrant;
-use crate::judge::Exam;
+use crate::judge::{Exam, Terms};
+use crate::settings::Setting;
 
 /// Rays of a picture that are judged at most, spread evenly.
 const MOST_RAYS: usize = 900;
@@ -20,14 +20,33 @@ const ROOMY: usize = 100;
 pub struct Stand<'a> {
     gpu: &'a Gpu,
     targets: Option<Targets>,
-    entrants: Vec<(Entrant, Box<dyn IsoRenderer>)>,
+    entrants: Vec<Entrant>,
+}
+
+/// A setting, what it is held to, and its renderer.
+struct Entrant {
+    setting: Setting,
+    terms: Terms,
+    renderer: Box<dyn IsoRenderer>,
 }
 
 impl<'a> Stand<'a> {
-    /// Nothing is made yet on the device.
-    pub fn new(gpu: &'a Gpu, entrants: impl IntoIterator<Item = Entrant>) -> Self {
-        let with_renderer = |entrant: Entrant| (entrant, entrant.renderer());
-        Self { gpu, targets: None, entrants: entrants.into_iter().map(with_renderer).collect() }
+    /// For settings that are held to what they promise. Nothing is made yet on the device.
+    pub fn new(gpu: &'a Gpu, settings: impl IntoIterator<Item = Setting>) -> Self {
+        let with_terms = |setting: Setting| {
+            let terms = Terms::of_setting(&setting);
+            (setting, terms)
+        };
+        Self::holding(gpu, settings.into_iter().map(with_terms))
+    }
+
+    /// For settings that are held to other terms than their own.
+    pub fn holding(gpu: &'a Gpu, settings: impl IntoIterator<Item = (Setting, Terms)>) -> Self {
+        let entrant = |(setting, terms): (Setting, Terms)| {
+            let renderer = setting.renderer(false);
+            Entrant { setting, terms, renderer }
+        };
+        Self { gpu, targets: None, entrants: settings.into_iter().map(entrant).collect() }
     }
 
     /// Tries every entrant at a value of a case, each against the same truth.
@@ -52,7 +71,7 @@ impl<'a> Stand<'a> {
         let exam = Exam::new(&bench.scene, &oracle, &rays);
 
         let mut cells = Vec::new();
-        for (entrant, renderer) in &mut self.entrants {
+        for Entrant { setting, terms, renderer } in &mut self.entrants {
             let mut draw =
                 |scene: &Scene| draw(self.gpu, renderer.as_mut(), &targets, scene, &view);
             let drawn = draw(&bench.scene).and_then(|first| match case.drawing {
@@ -68,15 +87,16 @@ impl<'a> Stand<'a> {
                 Ok((hits, differing)) => {
                     let picture = (&exam, pick(&hits, &pixels));
                     let must_repeat = case.drawing == Drawing::Twice;
-                    Cell::judged(place, entrant, (picture.0, &picture.1), differing, must_repeat)
+                    let judged = (picture.0, &picture.1[..]);
+                    Cell::judged(place, (&setting.name, terms), judged, differing, must_repeat)
                 }
                 Err(error) if is_refusal(&error) => {
-                    Cell::refused(case.name, value, entrant, error.to_string())
+                    Cell::refused(case.name, value, &setting.name, error.to_string())
                 }
                 Err(error) => return Err(error.into()),
             });
             if bench.scene.len() > ROOMY {
-                *renderer = entrant.renderer();
+                *renderer = setting.renderer(false);
             }
         }
         self.targets = Some(targets);

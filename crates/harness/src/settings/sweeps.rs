@@ -1,11 +1,11 @@
 //! The knobs of every method: each turned on its own, from the method's preset.
 
 use fbvh::{Boxes, Classes, Cost, Fitting, Options, Reading, Structure, TraceOptions};
-use illes_fraglist::Piece;
-use metaball_core::gpu::IsoRenderer;
+use illes_fraglist::{Gather, Piece, Sort};
+use kanamori_peel::{Clipping, Outline, Registration};
 
+use super::{Knobs, Setting};
 use crate::methods::{METHODS, Method, find, tree_options};
-use crate::setting::Setting;
 
 /// Every setting of a chart of error against time: each method's preset, and each of its knobs
 /// turned. Knobs that do not bear on a method are not in its list.
@@ -19,6 +19,25 @@ pub fn quick_settings() -> Vec<Setting> {
     let is_kept =
         |setting: &Setting| setting.options.keys().all(|name| kept.contains(&name.as_str()));
     settings().into_iter().filter(is_kept).collect()
+}
+
+/// Ends of knobs at which error is given away for time.
+const CRUDE: &[(&str, &str)] = &[
+    ("tolerance", "1e-2"),
+    ("tolerance", "1e-1"),
+    ("threshold", "1e-2"),
+    ("threshold", "1e-1"),
+    ("array", "24"),
+];
+
+/// Whom `auto` chooses from: every preset, and the crude ends of the knobs that trade error for
+/// time.
+pub fn candidates() -> Vec<Setting> {
+    let is_crude = |setting: &Setting| {
+        let mut options = setting.options.iter();
+        options.all(|(name, value)| CRUDE.contains(&(name.as_str(), value.as_str())))
+    };
+    settings().into_iter().filter(is_crude).collect()
 }
 
 /// A method with one of its knobs turned, for each position that differs from the preset.
@@ -43,11 +62,7 @@ fn tree(
     let (mut options, mut trace) = (preset, TraceOptions::DEFAULT);
     change(&mut options, &mut trace);
     let is_preset = options == preset && trace == TraceOptions::DEFAULT;
-    (!is_preset).then(|| {
-        Setting::with(method, option, value, move |counting| {
-            Box::new(fbvh::gpu::Renderer::new(method.name, options, trace, counting))
-        })
-    })
+    (!is_preset).then(|| Setting::with(method, option, value, Knobs::Tree(options, trace)))
 }
 
 /// How closely the secant search closes in (section 3), and how the leaf test is read.
@@ -116,30 +131,36 @@ fn certified(method: &'static Method) -> Vec<Setting> {
         .collect()
 }
 
-/// Threshold of clipping, length of lists, culling: sections 4.2, 5.2 and 5.4.
+/// Threshold and way of clipping, length of lists, and what bears on time alone: sections 4.2 and
+/// 5.1 to 5.4.
 fn kanamori(method: &'static Method) -> Vec<Setting> {
     use kanamori_peel::Options;
     let preset = Options::default();
-    let thresholds = [("1e-1", 1e-1), ("1e-2", 1e-2), ("1e-4", 1e-4), ("1e-5", 1e-5)]
-        .map(|(name, threshold)| ("threshold", name, Options { threshold, ..preset }));
-    let lists = [("6", 6), ("22", 22), ("30", 30)]
-        .map(|(name, list_capacity)| ("list", name, Options { list_capacity, ..preset }));
-    let culling = [("culling", "off", Options { culling: false, ..preset })];
-    thresholds
-        .into_iter()
-        .chain(lists)
-        .chain(culling)
-        .map(|(option, name, options)| {
-            Setting::with(method, option, name, move |counting| {
-                Box::new(kanamori_peel::Renderer::new(method.name, options, counting))
-            })
-        })
-        .collect()
+    let knobs = [
+        ("threshold", "1e-1", Options { threshold: 1e-1, ..preset }),
+        ("threshold", "1e-2", Options { threshold: 1e-2, ..preset }),
+        ("threshold", "1e-4", Options { threshold: 1e-4, ..preset }),
+        ("threshold", "1e-5", Options { threshold: 1e-5, ..preset }),
+        ("list", "6", Options { list_capacity: 6, ..preset }),
+        ("list", "22", Options { list_capacity: 22, ..preset }),
+        ("list", "30", Options { list_capacity: 30, ..preset }),
+        ("clipping", "iterative", Options { clipping: Clipping::Iterative, ..preset }),
+        ("clipping", "original", Options { clipping: Clipping::Original, ..preset }),
+        ("outline", "tessellated", Options { outline: Outline::Tessellation, ..preset }),
+        ("culling", "off", Options { culling: false, ..preset }),
+        ("tiles", "1", Options { tiles: 1, ..preset }),
+        ("tiles", "4", Options { tiles: 4, ..preset }),
+        ("tiles", "16", Options { tiles: 16, ..preset }),
+        ("registration", "device", Options { registration: Registration::Device, ..preset }),
+    ];
+    let setting =
+        |(option, value, options)| Setting::with(method, option, value, Knobs::Peeling(options));
+    knobs.map(setting).into()
 }
 
-/// Length of the local array.
+/// Length of the local array, and where balls are sorted.
 fn fragment_lists(method: &'static Method) -> Vec<Setting> {
-    use illes_fraglist::{Gather, Options, Renderer};
+    use illes_fraglist::Options;
     let preset = match method.name {
         "illes" => Options::default(),
         "illes-absolute" => Options { piece: Piece::AbsoluteCubic, ..Options::default() },
@@ -148,15 +169,15 @@ fn fragment_lists(method: &'static Method) -> Vec<Setting> {
         "illes-compute" => Options { gather: Gather::Tiles, ..Options::default() },
         _ => return Vec::new(),
     };
-    [("6", 6), ("12", 12), ("24", 24)]
-        .into_iter()
-        .map(|(name, room)| {
-            let options = Options { room, ..preset };
-            Setting::with(method, "array", name, move |counting| -> Box<dyn IsoRenderer> {
-                Box::new(Renderer::new(method.name, options, counting))
-            })
-        })
-        .collect()
+    let knobs = [
+        ("array", "6", Options { room: 6, ..preset }),
+        ("array", "12", Options { room: 12, ..preset }),
+        ("array", "24", Options { room: 24, ..preset }),
+        ("sort", "device", Options { sort: Sort::Device, ..preset }),
+    ];
+    let setting =
+        |(option, value, options)| Setting::with(method, option, value, Knobs::Fragments(options));
+    knobs.map(setting).into()
 }
 
 /// The presets that growth and density are measured with.
@@ -172,7 +193,7 @@ mod tests {
 
     #[test]
     fn every_method_has_its_preset_and_no_setting_comes_twice() {
-        for settings in [settings(), quick_settings()] {
+        for settings in [settings(), quick_settings(), candidates()] {
             let names: BTreeSet<_> = settings.iter().map(Setting::to_string).collect();
             assert_eq!(names.len(), settings.len());
             for method in METHODS {
@@ -183,5 +204,14 @@ mod tests {
             }
         }
         assert!(settings().len() > quick_settings().len());
+        for crude in CRUDE {
+            let has = |setting: &Setting| {
+                setting
+                    .options
+                    .iter()
+                    .any(|(name, value)| (name.as_str(), value.as_str()) == *crude)
+            };
+            assert!(candidates().iter().any(has), "{crude:?} is an end of no knob");
+        }
     }
 }

@@ -1,0 +1,117 @@
+//! A method with its options set: what takes part in contests, charts, trials of stability and the
+//! choice of `auto`.
+
+pub mod sweeps;
+pub mod variants;
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use fbvh::TraceOptions;
+use metaball_core::gpu::IsoRenderer;
+
+use crate::methods::Method;
+
+/// A method with its options set.
+#[derive(Debug, Clone)]
+pub struct Setting {
+    /// The method.
+    pub method: &'static Method,
+    /// Names and values of the options that differ from the method's preset.
+    pub options: BTreeMap<String, String>,
+    /// All its options.
+    pub knobs: Knobs,
+    /// Name in tables and on the command line: `fbvh`, or `fbvh, tolerance 1e-3`, unless it has a
+    /// [name of its own](Self::called).
+    pub name: String,
+    /// Name in headings; an option stands behind an ellipsis.
+    pub title: String,
+}
+
+/// All options of a method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Knobs {
+    /// As the method is listed.
+    Preset,
+    /// `bvh`, `fbvh`, `fbvh-certified`.
+    Tree(fbvh::Options, TraceOptions),
+    /// `kanamori`.
+    Peeling(kanamori_peel::Options),
+    /// `illes` and its variants.
+    Fragments(illes_fraglist::Options),
+}
+
+impl Setting {
+    /// The method as it is listed.
+    pub fn preset(method: &'static Method) -> Self {
+        let (name, title) = (method.name.to_owned(), method.title.to_owned());
+        Self { method, options: BTreeMap::new(), knobs: Knobs::Preset, name, title }
+    }
+
+    /// The method with one option set otherwise.
+    pub fn with(method: &'static Method, option: &str, value: &str, knobs: Knobs) -> Self {
+        let options = BTreeMap::from([(option.to_owned(), value.to_owned())]);
+        let name = label(method.name, &options);
+        Self { method, options, knobs, name, title: format!("… {option} {value}") }
+    }
+
+    /// The same under a name and a title of its own.
+    #[must_use]
+    pub fn called(self, name: &str, title: &str) -> Self {
+        Self { name: name.to_owned(), title: title.to_owned(), ..self }
+    }
+
+    /// A renderer without a scene, under the method's name. It counts its work or, as when timing,
+    /// does not.
+    pub fn renderer(&self, counting: bool) -> Box<dyn IsoRenderer> {
+        let name = self.method.name;
+        match self.knobs {
+            Knobs::Preset => (self.method.make)(counting),
+            Knobs::Tree(options, trace) => {
+                Box::new(fbvh::gpu::Renderer::new(name, options, trace, counting))
+            }
+            Knobs::Peeling(options) => {
+                Box::new(kanamori_peel::Renderer::new(name, options, counting))
+            }
+            Knobs::Fragments(options) => {
+                Box::new(illes_fraglist::Renderer::new(name, options, counting))
+            }
+        }
+    }
+}
+
+impl From<&'static Method> for Setting {
+    fn from(method: &'static Method) -> Self {
+        Self::preset(method)
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.name)
+    }
+}
+
+/// A method's name and the options that differ from its preset.
+pub fn label(method: &str, options: &BTreeMap<String, String>) -> String {
+    let options: String = options.iter().map(|(name, value)| format!(", {name} {value}")).collect();
+    format!("{method}{options}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::METHODS;
+
+    #[test]
+    fn settings_say_what_they_set() {
+        let method = &METHODS[1];
+        assert_eq!(Setting::preset(method).to_string(), "fbvh");
+        let trace = TraceOptions { tolerance: 1e-3, ..TraceOptions::DEFAULT };
+        let knobs = Knobs::Tree(fbvh::Options::fitted(), trace);
+        let set = Setting::with(method, "tolerance", "1e-3", knobs);
+        assert_eq!(set.to_string(), "fbvh, tolerance 1e-3");
+        assert_eq!(set.renderer(false).name(), "fbvh");
+        assert_eq!(set.called("fbvh+coarse", "… coarse").to_string(), "fbvh+coarse");
+    }
+}
