@@ -55,6 +55,12 @@ impl Renderer {
         }
     }
 
+    /// Registrations that there is room for.
+    #[cfg(test)]
+    pub(crate) fn registration_room(&self) -> Option<u32> {
+        self.tiles.as_ref().map(|tiles| tiles.room)
+    }
+
     /// Rectangles of the last frame.
     #[cfg(test)]
     pub(crate) fn placed(&self) -> Option<&wgpu::Buffer> {

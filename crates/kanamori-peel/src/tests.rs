@@ -7,3 +7,4 @@ mod options;
 mod random;
 mod rectangles;
 mod robust;
+mod sums;

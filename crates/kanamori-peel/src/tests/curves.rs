@@ -9,11 +9,11 @@ use crate::Clipping;
 use crate::pipelines::searching;
 
 /// A curve's coefficients, or what belongs to one: room for degree 16 and three numbers more.
-type Record = [f32; 20];
+pub(super) type Record = [f32; 20];
 
 /// What entry `evaluate` of the source makes of each record. `constants` are those of the modules
 /// that it imports, the exponent aside.
-fn evaluate(
+pub(super) fn evaluate(
     gpu: &Gpu,
     source: &'static str,
     kernel: Kernel,

@@ -114,6 +114,29 @@ fn tiles_and_outlines_change_nothing() {
     assert!(pictures(Options { tiles: 5, ..tessellated }) == all);
 }
 
+/// Balls that are in many tiles overflow the room that a scene begins with, wherever they are registered;
+/// the frame is drawn with more, and is the same to the last bit as with one tile, which needs none.
+#[test]
+fn registrations_beyond_the_room_are_drawn_with_more() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let unculled = Options { culling: false, ..Options::default() };
+    let attempt = |options| {
+        let mut renderer = built(&gpu, options);
+        let before = renderer.registration_room();
+        let picture = draw_from(&gpu, &mut renderer, 9.0, (64, 48));
+        (picture, [before, renderer.registration_room()].map(|room| room.expect("is built")))
+    };
+    let (one_tile, [before, after]) = attempt(Options { tiles: 1, ..unculled });
+    assert_eq!(before, after);
+    assert!(one_tile.hits.iter().filter(|hit| hit.is_hit()).count() > 500);
+    for registration in [Registration::Host, Registration::Device] {
+        let (picture, [before, after]) = attempt(Options { tiles: 16, registration, ..unculled });
+        let registered = picture.facts["registrations"] as u32;
+        assert!(before < registered && registered <= after, "{before}, {registered}, {after}");
+        assert!(picture.hits == one_tile.hits, "{registration:?}");
+    }
+}
+
 /// What the device registers without culling is what the host does, which knows nothing of it.
 #[test]
 fn host_and_device_register_the_same() {
