@@ -3,6 +3,7 @@
 use super::paper::{ERROR_OF_T, ITERATIVE_ITERATIONS, SHORT_STACK_ITERATIONS};
 use super::plan::Part;
 use super::run::{GpuRun, Measured, Outcome};
+use super::settings::Setting;
 use super::{HEADINGS, Measurements, rows};
 use crate::html::{escape, fill, section};
 use crate::numbers::{decimal, small};
@@ -24,15 +25,40 @@ pub(super) fn page(measurements: &Measurements) -> String {
         + &fact("Adapter", &escape(&adapter))
         + &fact("The paper's", &printed);
     let bouts = &measurements.bouts;
+    let mut remarks = measurements.remarks.clone();
+    remarks.extend(replaced_clipping(bouts));
     let tables: String = Part::ALL.iter().map(|&part| table(part, bouts)).collect();
     let plots: String = bouts.iter().filter_map(plot).collect();
     let parts = [
         ("style", STYLE.to_owned()),
         ("facts", facts),
-        ("remarks", remark_paragraphs(&measurements.remarks)),
+        ("remarks", remark_paragraphs(&remarks)),
         ("tables", tables + &plots + &figure_8(bouts)),
     ];
     fill(include_str!("page.html"), &parts)
+}
+
+/// Why what section 5.4 replaces takes other iterations than the paper's; `None` where it was not
+/// measured.
+fn replaced_clipping(bouts: &[Outcome]) -> Option<String> {
+    let (average, most) = ITERATIVE_ITERATIONS;
+    let taken = |setting: Setting| {
+        let runs = bouts.iter().filter_map(|bout| bout.result.as_ref().ok());
+        let mut runs = runs.flat_map(|measured| &measured.runs);
+        let run = runs.find(|run| run.setting == setting.name())?.result.as_ref().ok()?;
+        let (mean, most) = run.iterations;
+        Some(format!("{} ({most})", decimal(mean)))
+    };
+    let iterative = taken(Setting::Iterative)?;
+    let original = taken(Setting::Original).map_or_else(String::new, |original| {
+        format!(" The original recursion takes {original}; the paper has no number for it.")
+    });
+    Some(format!(
+        "The iterative form takes {iterative} iterations here and {average} ({most}) in the paper, \
+         which refers to a program for trimmed NURBS surfaces and says neither on which curves nor \
+         what counts as an iteration; ours clips by the hull, keeps one range, and makes what lies \
+         behind it again from the whole curve.{original}"
+    ))
 }
 
 fn table(part: Part, bouts: &[Outcome]) -> String {
