@@ -1,5 +1,8 @@
 //! `cargo xtask test`: everything that must hold before a change is taken.
 
+use std::path::PathBuf;
+use std::{env, fs};
+
 use crate::adapter::{self, Adapter};
 use crate::run::{cargo, quieten, say, succeeds, to_the_end};
 
@@ -27,6 +30,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
         return to_the_end(&mut command);
     }
 
+    forget_packed();
     for step in steps(environment) {
         say(&format!("── {}", step.title));
         let mut command = cargo();
@@ -49,8 +53,34 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
     }
 }
 
+/// Where packing checks its packages: a folder of its own, new each time.
+const PACKAGES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/packages");
+
+/// Removes what is left of an earlier packing, here and where cargo unpacked it: cargo takes a version
+/// for unchanging, and would check today's fbvh against yesterday's metaball-core. What cannot be
+/// removed is left; then the packing says what is wrong.
+fn forget_packed() {
+    let _ = fs::remove_dir_all(PACKAGES);
+    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(env::home_dir()?.join(".cargo")));
+    // Registries without a host's name are folders of archives, as the one that packing makes.
+    let local = |path: &PathBuf| {
+        path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"-"))
+    };
+    let entries = |folder: PathBuf| fs::read_dir(folder).into_iter().flatten().flatten();
+    let Some(home) = home else { return };
+    for registry in entries(home.join("registry/src")).map(|entry| entry.path()).filter(local) {
+        for unpacked in entries(registry) {
+            let name = unpacked.file_name();
+            if PUBLISHED.iter().any(|ours| name.to_string_lossy().starts_with(ours)) {
+                let _ = fs::remove_dir_all(unpacked.path());
+            }
+        }
+    }
+}
+
 fn steps(gpu: Option<(&'static str, &'static str)>) -> Vec<Step> {
-    let mut package = vec!["package", "--quiet", "--allow-dirty"];
+    let mut package = vec!["package", "--quiet", "--allow-dirty", "--target-dir", PACKAGES];
     package.extend(PUBLISHED.into_iter().flat_map(|name| ["--package", name]));
     let step = |title, arguments: &[&'static str], environment| Step {
         title,
