@@ -68,6 +68,7 @@ pub const MODULES: &[Module] = &[
     import!("kernel/power"),
     import!("kernel/wyvill"),
     import!("kernel/perlin"),
+    import!("support/varied"),
     import!("strength/unit"),
     import!("strength/varied"),
     import!("color/srgb"),

@@ -1,4 +1,4 @@
-// What every scene has: support spheres and a threshold.
+// What every scene has: balls with support spheres, and a threshold.
 #define_import_path metaball::scene
 
 // Where a ball's field may be positive. Twin of `Support` in metaball-core.
@@ -13,9 +13,8 @@ struct Support {
 struct SceneHeader {
     // T: the field on the surface.
     threshold: f32,
-    // Number of balls; `supports` has one element even when this is 0.
+    // Number of balls; arrays of them have one element even when this is 0.
     balls: u32,
 }
 
-@group(1) @binding(0) var<storage, read> supports: array<Support>;
 @group(1) @binding(3) var<uniform> scene: SceneHeader;

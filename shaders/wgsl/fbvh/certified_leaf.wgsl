@@ -14,8 +14,9 @@
 #import metaball::hit::{HIT, INSIDE, UNDECIDED}
 #import metaball::kernel::{kernel, kernel_slope}
 #import metaball::ray::{any_will_do, Ray}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
 #import metaball::strength::strength
+#import metaball::support::support_of
 #import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test}
 
 // Leaves do not overlap: once one holds a hit, no later one holds a nearer.
@@ -65,7 +66,7 @@ fn excess_and_slope(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t:
     var sum = vec2(-scene.threshold, 0.0);
     for (var entry = first; entry < end; entry++) {
         let ball = lists[entry];
-        let support = supports[ball];
+        let support = support_of(ball);
         let offset = (support.center - frame.center) - frame.origin;
         let middle = dot(offset, direction);
         let off_axis = offset - middle * direction;

@@ -7,8 +7,9 @@
 #import metaball::fbvh::structure::lists
 #import metaball::fbvh::suspend::spent
 #import metaball::kernel::{kernel, kernel_slope, steepest_slope}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
 #import metaball::strength::strength
+#import metaball::support::support_of
 #import metaball::work::count_evaluations
 
 // The excess is this times F - T.
@@ -39,7 +40,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
     var radius = 1e38;
     for (var entry = first; entry < end; entry++) {
         let ball = lists[entry];
-        let support = supports[ball];
+        let support = support_of(ball);
         let offset = (support.center - frame.center) - frame.origin;
         let middle = dot(offset, direction);
         let off_axis = offset - middle * direction;

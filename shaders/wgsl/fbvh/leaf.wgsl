@@ -8,7 +8,8 @@
 #import metaball::fbvh::structure::{is_empty, leaves, lists, through_box, Leaf, Stretch}
 #import metaball::fbvh::suspend::{can_go_on, spent}
 #import metaball::ray::{any_will_do, Ray}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
+#import metaball::support::support_of
 #import metaball::view::NO_LIMIT
 #import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test}
 
@@ -68,7 +69,7 @@ var<private> search: Search;
 
 // What one ball adds to the field at t.
 fn contribution_at(ball: u32, ray: Ray, t: f32) -> f32 {
-    let support = supports[ball];
+    let support = support_of(ball);
     let offset = offset_at(ray.origin - support.center, ray.direction, t);
     return contribution(ball, depth_below_rim(offset, support.radius));
 }
@@ -125,7 +126,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     if search.stage == PROJECT {
         let projected = select(leaf.first + leaf.own, end, fitted);
         while search.next < projected {
-            let t = dot(supports[lists[search.next]].center - ray.origin, ray.direction);
+            let t = dot(support_of(lists[search.next]).center - ray.origin, ray.direction);
             if t > search.low && t < search.high {
                 if !can_go_on() {
                     return WAITING;

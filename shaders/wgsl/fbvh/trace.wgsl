@@ -10,8 +10,8 @@
 #import metaball::hit
 #import metaball::kernel::kernel_slope
 #import metaball::ray::{any_will_do, goes_on, has_ray, ray_of, Ray}
-#import metaball::scene::supports
 #import metaball::strength::strength
+#import metaball::support::support_of
 #import metaball::view::{in_picture, pixel_at}
 #import metaball::work::{count_node, write_work}
 
@@ -137,7 +137,7 @@ fn write(pixel: u32, ray: Ray) {
     let end = structure::leaves[best_leaf + 1u].first;
     for (var entry = found.first; entry < end; entry++) {
         let ball = structure::lists[entry];
-        let support = supports[ball];
+        let support = support_of(ball);
         let offset = offset_at(ray.origin - support.center, ray.direction, best_t);
         let v = depth_below_rim(offset, support.radius);
         slope += gradient(ball, v, offset, support.radius);

@@ -1,7 +1,8 @@
 // Balls in the order of a frame, and a ball along a ray (Illés and Szécsi, section 3, figure 5).
 #define_import_path metaball::illes_fraglist::balls
 
-#import metaball::scene::{supports, Support}
+#import metaball::scene::Support
+#import metaball::support::support_of
 #import metaball::view::{view, NO_LIMIT}
 
 // Balls by rising effective distance. A ball's place here is its rank: lists hold ranks, so that
@@ -35,7 +36,7 @@ fn effective_distance(support: Support) -> f32 {
 }
 
 fn support_of_rank(rank: u32) -> Support {
-    return supports[ball_of_rank[rank]];
+    return support_of(ball_of_rank[rank]);
 }
 
 // Whether a segment belongs into its pixel's list: some of it lies between the eye and the limit.
@@ -46,7 +47,7 @@ fn is_gathered(segment: Segment, limit: f32) -> bool {
 
 // Distance along a ray to a ball's core, 0 with the eye in it; NO_LIMIT where the ray misses it.
 fn core_entry(ball: u32, direction: vec3<f32>) -> f32 {
-    let segment = segment_of(supports[ball].center, core_radii[ball], direction);
+    let segment = segment_of(support_of(ball).center, core_radii[ball], direction);
     let entry = max(segment.middle - segment.half, 0.0);
     return select(NO_LIMIT, entry, is_gathered(segment, NO_LIMIT));
 }

@@ -3,7 +3,7 @@
 
 #import metaball::cover::covering_corner
 #import metaball::illes_fraglist::balls::{ball_of_rank, core_entry, core_radii}
-#import metaball::scene::supports
+#import metaball::support::support_of
 #import metaball::view::{pixel_at, rays, NO_LIMIT}
 
 struct Corner {
@@ -25,7 +25,7 @@ fn bound_core(@builtin(vertex_index) vertex: u32, @builtin(instance_index) rank:
     if radius == 0.0 {
         return Corner(vec4(0.0, 0.0, 0.5, 1.0), ball);
     }
-    return Corner(covering_corner(supports[ball].center, radius, vertex), ball);
+    return Corner(covering_corner(support_of(ball).center, radius, vertex), ball);
 }
 
 @fragment
@@ -36,6 +36,6 @@ fn draw_core(corner: Corner) -> Nearest {
         discard;
     }
     // Any length of the scene's size that is the same for all.
-    let unit = supports[0].radius;
+    let unit = support_of(0u).radius;
     return Nearest(t, unit / (unit + t));
 }

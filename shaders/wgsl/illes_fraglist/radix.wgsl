@@ -5,7 +5,8 @@
 
 #import metaball::illes_fraglist::balls::effective_distance
 #import metaball::illes_fraglist::prefix::{sum_before, THREADS}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
+#import metaball::support::support_of
 
 struct Entry {
     // Ordered as the distances are.
@@ -37,7 +38,7 @@ fn make_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
     let ball = id.x + id.y * groups.x * GROUP;
     if ball < scene.balls {
         // Without their sign, floats are ordered as integers are, and negative ones in reverse.
-        let bits = bitcast<u32>(effective_distance(supports[ball]));
+        let bits = bitcast<u32>(effective_distance(support_of(ball)));
         moved[ball] = Entry(select(bits | 0x80000000u, ~bits, bits >> 31u == 1u), ball);
     }
 }

@@ -7,7 +7,8 @@
 
 #import metaball::kanamori_peel::arranged::{Arranged, MOST_ACTIVE}
 #import metaball::kanamori_peel::placed::{is_drawn, place_sphere, Placed}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
+#import metaball::support::support_of
 #import metaball::view::view
 
 // Whether balls that no pixel sees before the kernel spheres are left out.
@@ -26,7 +27,7 @@ var<workgroup> running: array<vec3<u32>, LANES>;
 @compute @workgroup_size(256)
 fn place(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x < scene.balls {
-        let support = supports[id.x];
+        let support = support_of(id.x);
         placed[id.x] = place_sphere(support.center - view.eye, support.radius);
     }
 }

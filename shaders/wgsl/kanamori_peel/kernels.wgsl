@@ -5,7 +5,7 @@
 #import metaball::kanamori_peel::chord::chord_of
 #import metaball::kanamori_peel::frame::{from_depth, to_depth}
 #import metaball::kanamori_peel::outline::outline
-#import metaball::scene::supports
+#import metaball::support::support_of
 #import metaball::view::{pixel_at, rays, view}
 
 @group(2) @binding(4) var<storage, read_write> seen: array<u32>;
@@ -31,7 +31,7 @@ fn bound_kernel(@builtin(vertex_index) vertex: u32, @builtin(instance_index) bal
 }
 
 fn corner_of(ball: u32, vertex: u32) -> Corner {
-    let support = supports[ball];
+    let support = support_of(ball);
     let to_center = support.center - view.eye;
     return Corner(outline(vertex, placed[ball], to_center, support.radius), ball);
 }
@@ -39,7 +39,7 @@ fn corner_of(ball: u32, vertex: u32) -> Corner {
 @fragment
 fn kernel_sphere(corner: Corner) -> @builtin(frag_depth) f32 {
     let ray = rays[pixel_at(vec2<u32>(corner.position.xy))];
-    let to_center = supports[corner.ball].center - view.eye;
+    let to_center = support_of(corner.ball).center - view.eye;
     let chord = chord_of(to_center, kernel_radii[corner.ball], ray.direction);
     let half = sqrt(max(chord.half_squared, 0.0));
     if chord.half_squared <= 0.0 || chord.middle + half <= 0.0 {
@@ -52,7 +52,7 @@ fn kernel_sphere(corner: Corner) -> @builtin(frag_depth) f32 {
 fn mark_seen(corner: Corner) {
     let position = vec2<u32>(corner.position.xy);
     let ray = rays[pixel_at(position)];
-    let support = supports[corner.ball];
+    let support = support_of(corner.ball);
     let chord = chord_of(support.center - view.eye, support.radius, ray.direction);
     let half = sqrt(max(chord.half_squared, 0.0));
     let stop = min(from_depth(textureLoad(kernel_depth, position, 0)), ray.t_max);

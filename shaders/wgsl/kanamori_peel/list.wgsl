@@ -9,8 +9,9 @@
 #import metaball::kanamori_peel::bezier::{LOST, NO_ROOT, part}
 #import metaball::kanamori_peel::chord::chord_of
 #import metaball::kanamori_peel::clipping::first_root
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
 #import metaball::strength::strength
+#import metaball::support::support_of
 #import metaball::view::{Ray, view}
 #import metaball::work::{count_balls, count_leaf_test, count_search_end}
 
@@ -54,7 +55,7 @@ fn search(ray: Ray, low: f32, high: f32) -> f32 {
 fn search_single(ray: Ray, low: f32, high: f32) -> f32 {
     let ball = listed[0];
     let radius = kernel_radii[ball];
-    let chord = chord_of(supports[ball].center - view.eye, radius, ray.direction);
+    let chord = chord_of(support_of(ball).center - view.eye, radius, ray.direction);
     let half = sqrt(max(chord.half_squared, 0.0));
     let enter = max(chord.middle - half, low);
     let is_met = radius > 0.0 && chord.half_squared >= 0.0;
@@ -70,7 +71,7 @@ fn search_multiple(ray: Ray, low: f32, high: f32) -> f32 {
     }
     let middle = 0.5 * (low + high);
     for (var k = 0u; k < listed_count; k++) {
-        let support = supports[listed[k]];
+        let support = support_of(listed[k]);
         let chord = chord_of(support.center - view.eye, support.radius, ray.direction);
         let half = sqrt(max(chord.half_squared, 0.0));
         // A ball whose end was lost to a coincident point stays on the list, and adds nothing.
@@ -103,7 +104,7 @@ fn write_surface(pixel: u32, ray: Ray, t: f32) {
     blend_start();
     for (var k = 0u; k < listed_count; k++) {
         let ball = listed[k];
-        let support = supports[ball];
+        let support = support_of(ball);
         let offset = offset_at(view.eye - support.center, ray.direction, t);
         let v = depth_below_rim(offset, support.radius);
         slope += gradient(ball, v, offset, support.radius);
@@ -118,7 +119,7 @@ fn write_surface(pixel: u32, ray: Ray, t: f32) {
 
 // Section 7: with more balls over a point than the list holds, the support itself is drawn.
 fn write_support(pixel: u32, ray: Ray, t: f32, ball: u32) {
-    let support = supports[ball];
+    let support = support_of(ball);
     blend_start();
     blend_add(ball, 1.0);
     blend_write(pixel);

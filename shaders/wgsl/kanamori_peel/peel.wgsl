@@ -5,7 +5,7 @@
 #import metaball::kanamori_peel::chord::chord_of
 #import metaball::kanamori_peel::frame::to_depth
 #import metaball::kanamori_peel::outline::{outline, VERTICES}
-#import metaball::scene::supports
+#import metaball::support::support_of
 #import metaball::view::{pixel_at, rays, view}
 
 // Nothing lies nearer to an eye outside a support than this.
@@ -32,7 +32,7 @@ struct Point {
 @vertex
 fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index: u32) -> Corner {
     let ball = registered[tiles[vertex / VERTICES].first + index];
-    let support = supports[ball];
+    let support = support_of(ball);
     let to_center = support.center - view.eye;
     let here = placed[ball];
     let position = outline(vertex % VERTICES, here, to_center, support.radius);

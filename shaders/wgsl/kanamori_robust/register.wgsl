@@ -3,8 +3,9 @@
 #import metaball::cover::covering_corner
 #import metaball::kanamori_robust::lists
 #import metaball::kanamori_robust::lists::{entries, Entry, marks}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
 #import metaball::status::{report_needed, report_unfinished}
+#import metaball::support::support_of
 #import metaball::view::view
 
 @compute @workgroup_size(64)
@@ -61,7 +62,7 @@ fn fill_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
     if ball >= scene.balls {
         return;
     }
-    let support = supports[ball];
+    let support = support_of(ball);
     let distance = length(support.center - view.eye);
     // The difference, the length and the direction's own length err by a few parts in 2^23.
     let near = distance - support.radius - 8.0 * 0x1p-23f * (distance + support.radius);
@@ -84,7 +85,7 @@ struct TileRange {
 }
 
 fn tiles_of_ball(ball: u32) -> TileRange {
-    let support = supports[ball];
+    let support = support_of(ball);
     let low = covering_corner(support.center, support.radius, 0u).xy;
     let high = covering_corner(support.center, support.radius, 3u).xy;
     if low.x >= high.x || low.y >= high.y {

@@ -13,9 +13,10 @@
 #import metaball::kanamori_robust::lists
 #import metaball::kanamori_robust::lists::entries
 #import metaball::kernel::{kernel, kernel_slope, steepest_slope}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
 #import metaball::status::{report_finished, report_needed, report_unfinished}
 #import metaball::strength::strength
+#import metaball::support::support_of
 #import metaball::view::{in_picture, pixel_at, rays, Ray}
 #import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test, write_work}
 
@@ -100,7 +101,7 @@ fn begin(pixel: u32, ray: Ray, first: u32) {
     let near = max(entries[first].near, 0.0);
     state.stage = NARROW;
     state.base = near;
-    state.high = supports[ball].radius;
+    state.high = support_of(ball).radius;
     rebase(ray);
     if near == 0.0 {
         let start = bounds_on(ray.direction, 0.0, 0.0);
@@ -141,7 +142,7 @@ fn narrow(pixel: u32, ray: Ray) {
     if gap > state.probe {
         state.low = gap;
         state.probe = gap;
-        state.high = gap + supports[entries[state.first].ball].radius;
+        state.high = gap + support_of(entries[state.first].ball).radius;
     }
     if state.probe > state.high - state.probe {
         rebase(ray);
@@ -193,7 +194,7 @@ fn narrow(pixel: u32, ray: Ray) {
 fn skip_passed() {
     while state.first < list_end && spent < 2u * budget {
         let entry = entries[state.first];
-        let width = 2.0 * supports[entry.ball].radius;
+        let width = 2.0 * support_of(entry.ball).radius;
         let far = entry.near - state.base + width + 64.0 * UNIT * (abs(entry.near) + width);
         if far >= state.probe {
             return;
@@ -264,7 +265,7 @@ fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
         if entry.near - state.base > high + 2.0 * UNIT * abs(high) {
             break;
         }
-        let support = supports[entry.ball];
+        let support = support_of(entry.ball);
         let offset = offset_to(here, support.center);
         let middle = dot(offset, direction);
         let off_axis = offset - middle * direction;
@@ -318,7 +319,7 @@ fn field_and_slope(direction: vec3<f32>, t: f32) -> vec2<f32> {
         if entry.near - state.base > state.high + 2.0 * UNIT * abs(state.high) {
             break;
         }
-        let support = supports[entry.ball];
+        let support = support_of(entry.ball);
         let offset = offset_to(here, support.center);
         let middle = dot(offset, direction);
         let off_axis = offset - middle * direction;
@@ -353,7 +354,7 @@ fn surface(pixel: u32, ray: Ray, t: f32, status: u32) {
         if entry.near - state.base > t + 4.0 * UNIT * abs(t) {
             break;
         }
-        let support = supports[entry.ball];
+        let support = support_of(entry.ball);
         let to_center = offset_to(here, support.center);
         let middle = dot(to_center, ray.direction);
         let along = t - middle;

@@ -3,8 +3,9 @@
 #import metaball::color::{blend_add, blend_start, blend_write}
 #import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
 #import metaball::hit::{write_hit, write_miss, HIT, INSIDE}
-#import metaball::scene::{scene, supports}
+#import metaball::scene::scene
 #import metaball::status::{report_needed, report_unfinished}
+#import metaball::support::support_of
 #import metaball::view::{in_picture, pixel_at, rays, view}
 #import metaball::work::{count_balls, count_evaluations, write_work}
 
@@ -31,7 +32,7 @@ fn trace(@builtin(global_invocation_id) invocation: vec3<u32>) {
     }
     count_balls(1u);
 
-    let ball = supports[0];
+    let ball = support_of(0u);
     let ray = rays[pixel];
     let eye_offset = view.eye - ball.center;
     if length(eye_offset) <= core_radius {
