@@ -23,10 +23,10 @@ use self::plan::{Extent, Planned, Purpose, plan};
 use crate::conclusions::conclusions;
 use crate::console::{self, Progress};
 use crate::contest::{Rules, hold, steps};
-use crate::machine::{self, Machine};
+use crate::machine::Provenance;
 use crate::measure::Sampling;
 use crate::numbers::decimal;
-use crate::output::write_atomically;
+use crate::output::{write_atomically, write_json};
 use crate::record::{Adapter, Record, Status};
 use crate::settings::Setting;
 
@@ -54,14 +54,9 @@ pub struct Order {
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Chart {
-    /// [`SCHEMA`].
-    pub schema: String,
-    /// The command that made the file.
-    pub command: String,
-    /// The commit that it was built from, or `unknown`.
-    pub commit: String,
-    /// The computer it ran on.
-    pub machine: Machine,
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// What drew.
     pub adapter: Adapter,
     /// Pixels across.
@@ -115,7 +110,7 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
     let mut before = None;
     match previous {
         Some(previous) if previous.complete => before = Some(previous),
-        Some(previous) if !order.fresh && previous.commit == chart.commit => {
+        Some(previous) if !order.fresh && previous.provenance.commit == chart.provenance.commit => {
             console::note(&format!(
                 "going on with {}: {} of {} scenes are done",
                 path.display(),
@@ -170,10 +165,7 @@ impl Chart {
             remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
         }
         Self {
-            schema: SCHEMA.to_owned(),
-            command: machine::command(),
-            commit: machine::commit(),
-            machine: Machine::here(),
+            provenance: Provenance::here(SCHEMA),
             adapter: Adapter::from(gpu.report()),
             width,
             height,
@@ -186,8 +178,8 @@ impl Chart {
 
     /// Whether two runs measured the same, up to the program.
     fn is_like(&self, other: &Self) -> bool {
-        (&self.schema, &self.command, &self.machine, &self.adapter)
-            == (&other.schema, &other.command, &other.machine, &other.adapter)
+        self.provenance.is_like(&other.provenance)
+            && self.adapter == other.adapter
             && (self.width, self.height) == (other.width, other.height)
     }
 
@@ -251,9 +243,7 @@ impl Chart {
     }
 
     fn write(&self, path: &Path) -> anyhow::Result<()> {
-        let mut text = serde_json::to_string_pretty(self).context("chart: no JSON")?;
-        text.push('\n');
-        write_atomically(path, text.as_bytes())
+        write_json(path, self)
     }
 }
 

@@ -9,7 +9,7 @@ use metaball_core::gpu::{AdapterChoice, Gpu};
 use crate::conclusions::conclusions;
 use crate::console::{self, Progress, table};
 use crate::contest::{Contest, Rules, hold, steps};
-use crate::machine::{self, Machine};
+use crate::machine::Provenance;
 use crate::numbers::{decimal, grouped, small};
 use crate::record::{Record, Records, SCHEMA, Status};
 use crate::report::write_report;
@@ -68,10 +68,7 @@ pub fn compare(comparison: &Comparison) -> anyhow::Result<()> {
     drop(progress);
 
     let records = Records {
-        schema: SCHEMA.to_owned(),
-        command: machine::command(),
-        commit: machine::commit(),
-        machine: Machine::here(),
+        provenance: Provenance::here(SCHEMA),
         records: contests.iter().flat_map(|contest| contest.records.clone()).collect(),
     };
     let worked = records.records.iter().any(|record| record.status == Status::Ok);

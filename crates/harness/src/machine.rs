@@ -6,6 +6,36 @@ use std::process::Command;
 
 use serde::{Deserialize, Serialize};
 
+/// What a file of numbers says first: its format, and where its numbers come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// Name and version of the file's format.
+    pub schema: String,
+    /// The command that made the file.
+    pub command: String,
+    /// The commit that it was built from, or `unknown`.
+    pub commit: String,
+    /// The computer it ran on.
+    pub machine: Machine,
+}
+
+impl Provenance {
+    /// Of a file in that format, made by this process.
+    pub fn here(schema: &str) -> Self {
+        Self {
+            schema: schema.to_owned(),
+            command: command(),
+            commit: commit(),
+            machine: Machine::here(),
+        }
+    }
+
+    /// Whether both are of one format, command and machine, up to the program.
+    pub fn is_like(&self, other: &Self) -> bool {
+        *self == Self { commit: self.commit.clone(), ..other.clone() }
+    }
+}
+
 /// The computer, as far as it tells.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
@@ -49,7 +79,7 @@ pub fn commit() -> String {
 }
 
 /// The command line as one would type it, with `metaball` in place of the program's path.
-pub fn command() -> String {
+fn command() -> String {
     let words = std::env::args().skip(1).map(|word| quoted(&word));
     std::iter::once("metaball".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }

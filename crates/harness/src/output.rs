@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context;
+use serde::Serialize;
 
 /// Writes a file under a temporary name beside its place, then moves it there, so that a reader
 /// never sees half a file and an interrupted run leaves the previous one. Makes missing folders.
@@ -34,6 +35,17 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
         let _ = fs::remove_file(&temporary);
     }
     written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Writes a file of JSON, for people too, whole or not at all.
+///
+/// # Errors
+/// As [`write_atomically`].
+pub fn write_json(path: &Path, value: &impl Serialize) -> anyhow::Result<()> {
+    let mut text = serde_json::to_string_pretty(value)
+        .with_context(|| format!("no JSON for {}", path.display()))?;
+    text.push('\n');
+    write_atomically(path, text.as_bytes())
 }
 
 #[cfg(test)]

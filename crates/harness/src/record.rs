@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use anyhow::Context;
 use metaball_core::gpu::{AdapterReport, Work};
 use serde::{Deserialize, Serialize};
 
-use crate::machine::Machine;
-use crate::output::write_atomically;
+use crate::machine::Provenance;
+use crate::output::write_json;
 use crate::score::Accuracy;
 use crate::stats::{quantile, sorted};
 
@@ -21,14 +20,9 @@ pub const SCHEMA: &str = "metaball-records/1";
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Records {
-    /// [`SCHEMA`].
-    pub schema: String,
-    /// The command that made the file.
-    pub command: String,
-    /// The commit that it was built from, or `unknown`.
-    pub commit: String,
-    /// The computer it ran on.
-    pub machine: Machine,
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// In the order of scenes, then methods.
     pub records: Vec<Record>,
 }
@@ -39,9 +33,7 @@ impl Records {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, path: &Path) -> anyhow::Result<()> {
-        let mut text = serde_json::to_string_pretty(self).context("records: no JSON")?;
-        text.push('\n');
-        write_atomically(path, text.as_bytes())
+        write_json(path, self)
     }
 }
 
@@ -333,15 +325,7 @@ pub(crate) mod tests {
     #[test]
     fn the_file_reads_back() {
         let records = Records {
-            schema: SCHEMA.to_owned(),
-            command: "metaball compare".to_owned(),
-            commit: "unknown".to_owned(),
-            machine: Machine {
-                cpu: "one".to_owned(),
-                cores: 2,
-                memory_bytes: None,
-                os: "linux".to_owned(),
-            },
+            provenance: Provenance::here(SCHEMA),
             records: vec![
                 record(Status::Ok, None, Some(measured())),
                 record(Status::Unsupported, Some("needs 2 bytes, the limit is 1"), None),

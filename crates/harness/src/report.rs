@@ -7,7 +7,7 @@ use crate::conclusions::conclusions;
 use crate::contest::{Contest, Pictures};
 use crate::heat::{AMBIGUOUS, ERROR_RANGE, MISS, NOT_COMPARED, SCALE, UNDECIDED, WRONG};
 use crate::html::{base64, escape, fill};
-use crate::machine::Machine;
+use crate::machine::Provenance;
 use crate::methods;
 use crate::numbers::{decimal, grouped, small};
 use crate::output::write_atomically;
@@ -56,7 +56,7 @@ pub(crate) fn conclusion_paragraphs(sentences: &[String]) -> String {
 pub(crate) const STYLE: &str = include_str!("style.css");
 
 fn facts(records: &Records) -> String {
-    let mut facts = provenance(&records.command, &records.commit, &records.machine);
+    let mut facts = provenance(&records.provenance);
     if let Some(record) = records.records.first() {
         let adapter = &record.adapter;
         let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
@@ -67,7 +67,8 @@ fn facts(records: &Records) -> String {
 }
 
 /// Where the numbers of a page come from.
-pub(crate) fn provenance(command: &str, commit: &str, machine: &Machine) -> String {
+pub(crate) fn provenance(provenance: &Provenance) -> String {
+    let Provenance { command, commit, machine, .. } = provenance;
     let memory = machine.memory_bytes.map_or_else(String::new, |bytes| {
         format!(", {:.0} GiB", bytes as f64 / f64::from(1 << 30))
     });
@@ -244,14 +245,9 @@ mod tests {
     #[test]
     fn a_page_needs_nothing_else_and_trusts_no_name() {
         let records = Records {
-            schema: crate::record::SCHEMA.to_owned(),
-            command: "metaball compare '<script>'".to_owned(),
-            commit: "unknown".to_owned(),
-            machine: Machine {
-                cpu: "c".into(),
-                cores: 1,
-                memory_bytes: Some(1 << 30),
-                os: "o".into(),
+            provenance: Provenance {
+                command: "metaball compare '<script>'".to_owned(),
+                ..Provenance::here(crate::record::SCHEMA)
             },
             records: Vec::new(),
         };

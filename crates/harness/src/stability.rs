@@ -17,7 +17,7 @@ use self::cell::{Cell, Outcome};
 use self::record::{Limit, SCHEMA, Stability};
 use self::stand::Stand;
 use crate::console::{self, Progress, table};
-use crate::machine::{self, Machine};
+use crate::machine::Provenance;
 use crate::output::write_atomically;
 use crate::settings::Setting;
 use crate::settings::variants::entrants;
@@ -50,10 +50,7 @@ pub fn stability(order: &Order) -> anyhow::Result<()> {
     let methods = if order.methods.is_empty() { entrants() } else { order.methods.clone() };
 
     let mut stability = Stability {
-        schema: SCHEMA.to_owned(),
-        command: machine::command(),
-        commit: machine::commit(),
-        machine: Machine::here(),
+        provenance: Provenance::here(SCHEMA),
         adapter: gpu.report().into(),
         limits: Vec::new(),
         cells: Vec::new(),

@@ -5,14 +5,13 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
-use anyhow::Context;
 use metaball_core::gpu::Gpu;
 use metaball_core::{Scene, View};
 use serde::{Deserialize, Serialize};
 
 use super::choice::Choice;
 use crate::machine;
-use crate::output::write_atomically;
+use crate::output::write_json;
 use crate::record::Adapter;
 
 /// Name and version of the files' format.
@@ -121,8 +120,7 @@ impl Cache {
         let (key, choice) = (key.clone(), choice.clone());
         let path = folder.join(key.file_name()?);
         let file = File { schema: SCHEMA.to_owned(), key, choice };
-        let text = serde_json::to_string_pretty(&file).context("choice: no JSON")?;
-        write_atomically(&path, text.as_bytes())
+        write_json(&path, &file)
     }
 }
 

@@ -22,7 +22,7 @@ use crate::stats::exponent;
 pub(super) fn page(chart: &Chart) -> String {
     let adapter = &chart.adapter;
     let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
-    let facts = provenance(&chart.command, &chart.commit, &chart.machine)
+    let facts = provenance(&chart.provenance)
         + &fact("Adapter", &escape(&adapter))
         + &fact("Picture", &format!("{} × {} pixels", chart.width, chart.height));
     let mut remarks = chart.remarks.clone();

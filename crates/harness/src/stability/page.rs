@@ -15,14 +15,10 @@ use crate::settings::Setting;
 pub(super) fn page(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
     let adapter = &stability.adapter;
     let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
-    let (command, commit) = (&stability.command, &stability.commit);
     let sections: String = cases.iter().map(|case| section(stability, case, entrants)).collect();
     let parts = [
         ("style", STYLE.to_owned()),
-        (
-            "facts",
-            provenance(command, commit, &stability.machine) + &fact("Adapter", &escape(&adapter)),
-        ),
+        ("facts", provenance(&stability.provenance) + &fact("Adapter", &escape(&adapter))),
         ("remarks", remark_paragraphs(&remarks(stability))),
         ("legend", legend()),
         ("matrix", matrix(stability, cases, entrants)),

@@ -3,14 +3,13 @@
 use std::fs;
 use std::path::Path;
 
-use anyhow::Context;
 use bench_scenes::Case;
 use serde::{Deserialize, Serialize};
 
 use super::cell::{Cell, Outcome};
 use super::limits::expected;
-use crate::machine::Machine;
-use crate::output::write_atomically;
+use crate::machine::Provenance;
+use crate::output::write_json;
 use crate::record::Adapter;
 
 /// Name and version of the format of [`Stability`].
@@ -19,14 +18,9 @@ pub const SCHEMA: &str = "metaball-stability/1";
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Stability {
-    /// [`SCHEMA`].
-    pub schema: String,
-    /// The command that made the file.
-    pub command: String,
-    /// The commit that it was built from, or `unknown`.
-    pub commit: String,
-    /// The computer it ran on.
-    pub machine: Machine,
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// What drew.
     pub adapter: Adapter,
     /// Where each method's limits are, by case and method.
@@ -99,18 +93,13 @@ impl Stability {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, path: &Path) -> anyhow::Result<()> {
-        let mut text = serde_json::to_string_pretty(self).context("stability: no JSON")?;
-        text.push('\n');
-        write_atomically(path, text.as_bytes())
+        write_json(path, self)
     }
 
     /// Reads what an interrupted run has left, if it is of the same program, command and adapter.
     pub fn unfinished(&self, path: &Path) -> Option<Vec<Cell>> {
         let left: Self = serde_json::from_str(&fs::read_to_string(path).ok()?).ok()?;
-        let is_same = left.schema == self.schema
-            && left.command == self.command
-            && left.commit == self.commit
-            && left.adapter == self.adapter;
+        let is_same = left.provenance == self.provenance && left.adapter == self.adapter;
         is_same.then_some(left.cells)
     }
 }
@@ -160,10 +149,7 @@ mod tests {
         let folder = scratch("stability");
         let path = folder.join("unfinished.json");
         let run = Stability {
-            schema: SCHEMA.to_owned(),
-            command: "metaball stability".to_owned(),
-            commit: "c".to_owned(),
-            machine: Machine::here(),
+            provenance: Provenance::here(SCHEMA),
             adapter: Adapter { name: "a".into(), backend: "b".into(), driver: "d".into() },
             limits: Vec::new(),
             cells: vec![cell(10.0, Outcome::Right)],
@@ -171,7 +157,8 @@ mod tests {
         assert_eq!(run.unfinished(&path), None);
         run.write(&path).expect("written");
         assert_eq!(run.unfinished(&path), Some(run.cells.clone()));
-        let other = Stability { commit: "d".to_owned(), ..run };
+        let provenance = Provenance { commit: "d".to_owned(), ..run.provenance.clone() };
+        let other = Stability { provenance, ..run };
         assert_eq!(other.unfinished(&path), None);
         fs::remove_dir_all(folder).expect("removable");
     }

@@ -20,9 +20,9 @@ use self::plan::{Extent, Quantity, Series};
 use self::run::{Run, Shoot};
 use self::settings::Setting;
 use crate::console::{self, Progress};
-use crate::machine::{self, Machine};
+use crate::machine::Provenance;
 use crate::numbers::decimal;
-use crate::output::write_atomically;
+use crate::output::{write_atomically, write_json};
 use crate::record::Adapter;
 
 /// Name and version of the format of `gourmel.json`.
@@ -45,14 +45,9 @@ pub struct Order {
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// [`SCHEMA`].
-    pub schema: String,
-    /// The command that made the file.
-    pub command: String,
-    /// The commit that it was built from, or `unknown`.
-    pub commit: String,
-    /// The computer it ran on.
-    pub machine: Machine,
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// What drew.
     pub adapter: Adapter,
     /// Pixels across.
@@ -121,10 +116,8 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
     if let Some(why) = &measurements.density.why {
         console::line(&format!("  {why}"));
     }
-    let mut text = serde_json::to_string_pretty(&measurements).context("tables: no JSON")?;
-    text.push('\n');
     let page = order.out.join("gourmel.html");
-    write_atomically(&order.out.join("gourmel.json"), text.as_bytes())?;
+    write_json(&order.out.join("gourmel.json"), &measurements)?;
     write_atomically(&page, page::page(&measurements).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
     anyhow::ensure!(!measurements.runs.is_empty(), "nothing could be measured; see the page");
@@ -170,10 +163,7 @@ fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> anyhow::Result<Measuremen
     }
     drop(progress);
     Ok(Measurements {
-        schema: SCHEMA.to_owned(),
-        command: machine::command(),
-        commit: machine::commit(),
-        machine: Machine::here(),
+        provenance: Provenance::here(SCHEMA),
         adapter: Adapter::from(gpu.report()),
         width: shoot.size.0,
         height: shoot.size.1,
@@ -264,7 +254,10 @@ mod tests {
 
         let text = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&text).expect("as written");
-        assert_eq!((back.schema.as_str(), back.runs.len()), (SCHEMA, measurements.runs.len()));
+        assert_eq!(
+            (back.provenance.schema.as_str(), back.runs.len()),
+            (SCHEMA, measurements.runs.len())
+        );
         let page = page::page(&measurements);
         for forbidden in ["<script", "http", "url(", "no result", "{{"] {
             assert!(!page.contains(forbidden), "{forbidden}");

@@ -11,7 +11,6 @@ mod text;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use anyhow::Context;
 use bench_scenes::{BenchScene, Overrides, load};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Gpu};
@@ -22,9 +21,9 @@ use self::kernels::{KernelRow, kernels};
 use self::paper::{FIGURE_7, Printed, TABLE};
 use self::run::{Phases, Run, SETTINGS};
 use crate::console;
-use crate::machine::{self, Machine};
+use crate::machine::Provenance;
 use crate::numbers::{decimal, grouped};
-use crate::output::write_atomically;
+use crate::output::{write_atomically, write_json};
 use crate::record::Adapter;
 
 /// Name and version of the format of `illes.json`.
@@ -58,14 +57,9 @@ pub struct Order {
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// [`SCHEMA`].
-    pub schema: String,
-    /// The command that made the file.
-    pub command: String,
-    /// The commit that it was built from, or `unknown`.
-    pub commit: String,
-    /// The computer it ran on.
-    pub machine: Machine,
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// What drew.
     pub adapter: Adapter,
     /// Pixels across and down of table 1.
@@ -159,10 +153,8 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
     let time = (order.extent == Extent::Default).then_some(DEFAULT_TIME);
     let measurements = measure(&gpu, &Plan::new(order), time)?;
     console::line(&text::text(&measurements));
-    let mut json = serde_json::to_string_pretty(&measurements).context("tables: no JSON")?;
-    json.push('\n');
     let page = order.out.join("illes.html");
-    write_atomically(&order.out.join("illes.json"), json.as_bytes())?;
+    write_json(&order.out.join("illes.json"), &measurements)?;
     write_atomically(&page, page::page(&measurements).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
     let measured = measurements.table.iter().any(|row| row.run.is_some());
@@ -204,10 +196,7 @@ fn measure(gpu: &Gpu, plan: &Plan, time: Option<Duration>) -> anyhow::Result<Mea
 
     let runs: Vec<_> = table.iter().filter_map(|row| row.run.clone()).collect();
     Ok(Measurements {
-        schema: SCHEMA.to_owned(),
-        command: machine::command(),
-        commit: machine::commit(),
-        machine: Machine::here(),
+        provenance: Provenance::here(SCHEMA),
         adapter: Adapter::from(gpu.report()),
         size: plan.size,
         remarks,
@@ -377,7 +366,10 @@ mod tests {
 
         let json = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&json).expect("as written");
-        assert_eq!((back.schema.as_str(), back.table.len()), (SCHEMA, measurements.table.len()));
+        assert_eq!(
+            (back.provenance.schema.as_str(), back.table.len()),
+            (SCHEMA, measurements.table.len())
+        );
         let page = page::page(&measurements);
         for forbidden in ["<script", "http", "url(", "{{"] {
             assert!(!page.contains(forbidden), "{forbidden}");

@@ -10,16 +10,15 @@ pub mod settings;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use anyhow::Context;
 use metaball_core::gpu::{AdapterChoice, Gpu};
 use serde::{Deserialize, Serialize};
 
 use self::plan::{Bout, Extent, Part};
 use self::run::{GpuRun, Measured, Outcome, Run};
 use crate::console::{self, Progress};
-use crate::machine::{self, Machine};
+use crate::machine::Provenance;
 use crate::numbers::{decimal, small};
-use crate::output::write_atomically;
+use crate::output::{write_atomically, write_json};
 use crate::record::Adapter;
 
 /// Name and version of the format of `kanamori.json`.
@@ -39,14 +38,9 @@ pub struct Order {
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// [`SCHEMA`].
-    pub schema: String,
-    /// The command that made the file.
-    pub command: String,
-    /// The commit that it was built from, or `unknown`.
-    pub commit: String,
-    /// The computer it ran on.
-    pub machine: Machine,
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// What drew.
     pub adapter: Adapter,
     /// What a reader should know.
@@ -71,10 +65,8 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
         console::line(&format!("\n{}", part.title()));
         console::line(&console::table(&HEADINGS, &rows(part, &measurements.bouts)));
     }
-    let mut text = serde_json::to_string_pretty(&measurements).context("tables: no JSON")?;
-    text.push('\n');
     let page = order.out.join("kanamori.html");
-    write_atomically(&order.out.join("kanamori.json"), text.as_bytes())?;
+    write_json(&order.out.join("kanamori.json"), &measurements)?;
     write_atomically(&page, page::page(&measurements).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
     let measured = measurements.bouts.iter().any(|bout| bout.result.is_ok());
@@ -121,10 +113,7 @@ fn measure(gpu: &Gpu, extent: Extent, room: Duration) -> Measurements {
     }
     drop(progress);
     Measurements {
-        schema: SCHEMA.to_owned(),
-        command: machine::command(),
-        commit: machine::commit(),
-        machine: Machine::here(),
+        provenance: Provenance::here(SCHEMA),
         adapter: Adapter::from(gpu.report()),
         remarks,
         bouts: outcomes,
@@ -274,7 +263,10 @@ mod tests {
 
         let text = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&text).expect("as written");
-        assert_eq!((back.schema.as_str(), back.bouts.len()), (SCHEMA, measurements.bouts.len()));
+        assert_eq!(
+            (back.provenance.schema.as_str(), back.bouts.len()),
+            (SCHEMA, measurements.bouts.len())
+        );
         let page = page::page(&measurements);
         for forbidden in ["<script", "http", "url(", "not run", "{{"] {
             assert!(!page.contains(forbidden), "{forbidden}");

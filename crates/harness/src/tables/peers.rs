@@ -7,16 +7,15 @@ pub mod run;
 
 use std::path::PathBuf;
 
-use anyhow::Context;
 use metaball_core::Kernel;
 use serde::{Deserialize, Serialize};
 
 use self::povray::{INSTALL, Povray};
 use self::run::{Bout, Measured, Outcome, Traced};
 use crate::console::{self, Progress};
-use crate::machine::{self, Machine};
+use crate::machine::Provenance;
 use crate::numbers::{decimal, grouped, small};
-use crate::output::write_atomically;
+use crate::output::{write_atomically, write_json};
 
 /// Name and version of the format of `peers.json`.
 pub const SCHEMA: &str = "metaball-tables-peers/1";
@@ -63,14 +62,9 @@ impl Order {
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// [`SCHEMA`].
-    pub schema: String,
-    /// The command that made the file.
-    pub command: String,
-    /// The commit that it was built from, or `unknown`.
-    pub commit: String,
-    /// The computer it ran on.
-    pub machine: Machine,
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// Threads of either tracer.
     pub threads: usize,
     /// What the peer calls itself; `null` where it is not installed.
@@ -95,10 +89,8 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
     for remark in &measurements.remarks {
         console::line(&format!("  {remark}"));
     }
-    let mut text = serde_json::to_string_pretty(&measurements).context("tables: no JSON")?;
-    text.push('\n');
     let page = order.out.join("peers.html");
-    write_atomically(&order.out.join("peers.json"), text.as_bytes())?;
+    write_json(&order.out.join("peers.json"), &measurements)?;
     write_atomically(&page, page::page(&measurements).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
     let measured = measurements.scenes.iter().any(|scene| scene.result.is_ok());
@@ -132,10 +124,7 @@ fn measure(bouts: &[Bout], peer: Option<&Povray>) -> Measurements {
         ));
     }
     Measurements {
-        schema: SCHEMA.to_owned(),
-        command: machine::command(),
-        commit: machine::commit(),
-        machine: Machine::here(),
+        provenance: Provenance::here(SCHEMA),
         threads: run::THREADS,
         peer: peer.map(|peer| peer.version().to_owned()),
         remarks,
@@ -251,7 +240,7 @@ mod tests {
         }
         let text = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&text).expect("as written");
-        assert_eq!((back.schema.as_str(), back.scenes.len()), (SCHEMA, 2));
+        assert_eq!((back.provenance.schema.as_str(), back.scenes.len()), (SCHEMA, 2));
         let page = page::page(&measurements);
         for forbidden in ["<script", "http", "url(", "{{", "skipped", "/tmp"] {
             assert!(!page.contains(forbidden), "{forbidden}");

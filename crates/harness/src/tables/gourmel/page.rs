@@ -16,13 +16,12 @@ pub(super) fn page(measurements: &Measurements) -> String {
     let facts = fact("Adapter", &escape(&adapter))
         + &fact("Picture", &format!("{} × {} pixels", measurements.width, measurements.height))
         + &fact("Frames", &frames);
-    let (command, commit) = (&measurements.command, &measurements.commit);
     let tables: String =
         measurements.tables.iter().map(|table| rates(table, measurements)).collect();
     let series: String = measurements.series.iter().map(|line| plot(line, measurements)).collect();
     let parts = [
         ("style", STYLE.to_owned()),
-        ("facts", provenance(command, commit, &measurements.machine) + &facts),
+        ("facts", provenance(&measurements.provenance) + &facts),
         ("remarks", remark_paragraphs(&measurements.remarks)),
         (
             "tables",

@@ -17,7 +17,6 @@ pub(super) fn page(measurements: &Measurements) -> String {
     let (width, height) = measurements.size;
     let facts = fact("Adapter", &escape(&adapter))
         + &fact("Picture of table 1", &format!("{width} × {height} pixels"));
-    let (command, commit) = (&measurements.command, &measurements.commit);
     let tables = [
         phases(&measurements.table),
         plots(measurements),
@@ -29,7 +28,7 @@ pub(super) fn page(measurements: &Measurements) -> String {
     ];
     let parts = [
         ("style", STYLE.to_owned()),
-        ("facts", provenance(command, commit, &measurements.machine) + &facts),
+        ("facts", provenance(&measurements.provenance) + &facts),
         ("remarks", remark_paragraphs(&measurements.remarks)),
         ("tables", tables.concat()),
     ];

@@ -20,8 +20,7 @@ pub(super) fn page(measurements: &Measurements) -> String {
         "error of t {ERROR_OF_T}; iterations of a search {average} ({most}), before {before} \
          ({most_before})"
     );
-    let (command, commit) = (&measurements.command, &measurements.commit);
-    let facts = provenance(command, commit, &measurements.machine)
+    let facts = provenance(&measurements.provenance)
         + &fact("Adapter", &escape(&adapter))
         + &fact("The paper's", &printed);
     let bouts = &measurements.bouts;

@@ -6,9 +6,8 @@ use crate::report::{STYLE, fact, provenance, remark_paragraphs};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let (command, commit) = (&measurements.command, &measurements.commit);
     let peer = measurements.peer.as_deref().unwrap_or("not installed");
-    let facts = provenance(command, commit, &measurements.machine)
+    let facts = provenance(&measurements.provenance)
         + &fact("Peer", &escape(peer))
         + &fact("Threads", &measurements.threads.to_string());
     let parts = [
