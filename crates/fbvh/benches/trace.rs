@@ -40,7 +40,7 @@ fn trace(criterion: &mut Criterion) {
             let tree = Tree::build(&bench.scene, &options).expect("legal options");
             let tracer = Tracer::new(&tree, &bench.scene, TraceOptions::DEFAULT);
             group.bench_with_input(BenchmarkId::new(structure, name), &rays, |bencher, rays| {
-                bencher.iter(|| tracer.first_hits(black_box(rays)));
+                bencher.iter(|| tracer.picture_hits(black_box(rays), WIDTH as usize));
             });
         }
     }

@@ -34,7 +34,8 @@ pub fn trace(method: &Method, scene: &Scene, view: &View) -> anyhow::Result<Trac
 
     let start = Instant::now();
     let rays = rays(view);
-    let hits = Tracer::new(&tree, scene, TraceOptions::DEFAULT).first_hits(&rays);
+    let tracer = Tracer::new(&tree, scene, TraceOptions::DEFAULT);
+    let hits = tracer.picture_hits(&rays, view.width() as usize);
     Ok(Traced { rays, hits, build, frame: start.elapsed() })
 }
 

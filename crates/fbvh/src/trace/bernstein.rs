@@ -1,5 +1,7 @@
 //! Polynomials on \[0, 1\] by their Bernstein coefficients, which enclose their values.
 
+use std::ops::{Add, Mul, Sub};
+
 /// 1 / C(N − 1, k): turns the coefficients of products, which carry the binomials, into Bernstein's.
 pub(super) const fn inverse_binomials<const N: usize>() -> [f64; N] {
     let mut inverses = [1.0; N];
@@ -13,15 +15,35 @@ pub(super) const fn inverse_binomials<const N: usize>() -> [f64; N] {
     inverses
 }
 
+/// Numbers, alone or side by side.
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Number for T {}
+
 /// The value at x and the derivative by x (de Casteljau).
-pub(super) fn value_and_slope<const N: usize>(mut coefficients: [f64; N], x: f64) -> (f64, f64) {
+pub(super) fn value_and_slope<const N: usize>(coefficients: [f64; N], x: f64) -> (f64, f64) {
+    let (value, rise) = value_and_rise(coefficients, x);
+    (value, (N - 1) as f64 * rise)
+}
+
+/// The value at x, and the derivative over the degree.
+#[inline(always)]
+pub(super) fn value_and_rise<T: Number, const N: usize>(mut coefficients: [T; N], x: T) -> (T, T) {
     for level in (2..N).rev() {
         for k in 0..level {
-            coefficients[k] += x * (coefficients[k + 1] - coefficients[k]);
+            coefficients[k] = between(coefficients[k], coefficients[k + 1], x);
         }
     }
     let rise = coefficients[1] - coefficients[0];
-    (coefficients[0] + x * rise, (N - 1) as f64 * rise)
+    (coefficients[0] + x * rise, rise)
+}
+
+#[inline(always)]
+fn between<T: Number>(start: T, end: T, x: T) -> T {
+    start + x * (end - start)
 }
 
 /// Where a polynomial that is negative at 0 first may reach 0: never after the first root. `None`
@@ -56,10 +78,11 @@ pub(super) fn negative_until<const N: usize>(mut coefficients: [f64; N]) -> Opti
 }
 
 /// Restricts the polynomial to \[x, 1\].
-fn right_of<const N: usize>(coefficients: &mut [f64; N], x: f64) {
+#[inline(always)]
+pub(super) fn right_of<T: Number, const N: usize>(coefficients: &mut [T; N], x: T) {
     for level in (1..N).rev() {
         for k in 0..level {
-            coefficients[k] += x * (coefficients[k + 1] - coefficients[k]);
+            coefficients[k] = between(coefficients[k], coefficients[k + 1], x);
         }
     }
 }

@@ -15,6 +15,11 @@
 //! holds one, the first. Otherwise the interval is shortened, from the front to where the upper
 //! polynomial may first reach T, and from the back to where the lower one certainly has.
 //!
+//! # By packets
+//! Of many rays, eight at a time go through the tree together ([`super::packet`]), and a leaf is
+//! searched on all of them side by side by the same polynomials ([`super::packet_leaf`]). Every bound
+//! is one ray's own, with the margins of that ray; what it cannot decide is asked again as above.
+//!
 //! # Rays that start inside
 //! A box above T throughout and a box dropped never touch but where the field is T, so a ray that
 //! starts inside leaves the solid in a leaf with a list: solid leaves are passed through.
@@ -23,6 +28,7 @@ use glam::DVec3;
 use metaball_core::{Aabb, Hit, Ray, Verdict};
 use pulp::Arch;
 
+use super::nearby::Nearby;
 use super::pack::Pack;
 use super::polynomial::{Answer, Question, outward};
 use super::ranges::{Chords, Found, Search, UNIT};
@@ -31,14 +37,20 @@ use crate::Field;
 
 /// What searches of leaves share, for its memory.
 pub(super) struct Scratch {
-    arch: Arch,
+    pub(super) arch: Arch,
     pack: Pack,
+    pub(super) nearby: Nearby,
     chords: Chords,
 }
 
 impl Scratch {
     pub(super) fn new() -> Self {
-        Self { arch: Arch::new(), pack: Pack::default(), chords: Chords::default() }
+        Self {
+            arch: Arch::new(),
+            pack: Pack::default(),
+            nearby: Nearby::default(),
+            chords: Chords::default(),
+        }
     }
 }
 
@@ -48,7 +60,7 @@ pub(super) struct Journey<'a> {
     origin: DVec3,
     inverse: DVec3,
     /// Whether a leaf on the way could not tell.
-    doubt: bool,
+    pub(super) doubt: bool,
 }
 
 impl<'a> Journey<'a> {
@@ -85,17 +97,30 @@ impl<F: Field> Tracer<'_, F> {
     /// the verdict is all that is right.
     pub(super) fn certain(
         &self,
+        question: &Question,
         ray: &Ray,
-        (crossing, any): (Crossing, bool),
         scratch: &mut Scratch,
         counter: &mut impl Counter,
     ) -> Hit {
         let mut journey = Journey::new(ray);
-        let question = self.question(crossing, any);
         let hit = self.first_in_order(ray, counter, |leaf, _, counter| {
-            self.visit(&question, leaf, &mut journey, scratch, counter)
+            self.visit(question, leaf, &mut journey, scratch, counter)
         });
         hit.unwrap_or_else(|| journey.end())
+    }
+
+    /// The same in a part of the tree whose box the ray meets; `None` when the ray goes on.
+    pub(super) fn certain_below(
+        &self,
+        reference: u32,
+        question: &Question,
+        journey: &mut Journey<'_>,
+        scratch: &mut Scratch,
+        counter: &mut impl Counter,
+    ) -> Option<Hit> {
+        self.first_below(reference, journey.ray, counter, |leaf, _, counter| {
+            self.visit(question, leaf, journey, scratch, counter)
+        })
     }
 
     pub(super) fn question(&self, crossing: Crossing, any: bool) -> Question {
@@ -128,7 +153,18 @@ impl<F: Field> Tracer<'_, F> {
         }
         scratch.pack.take(self.field, leaf, &bounds, list);
         match question.ask(scratch.arch, &mut scratch.pack, ray, stretch, counter) {
-            Answer::Nothing => None,
+            Answer::Unclear => {
+                self.search_ranges(question, leaf, stretch, journey, scratch, counter)
+            }
+            answer => self.hit_of(answer, leaf, ray),
+        }
+    }
+
+    /// What an answer says of the ray; `None` when it goes on.
+    #[inline]
+    pub(super) fn hit_of(&self, answer: Answer, leaf: usize, ray: &Ray) -> Option<Hit> {
+        match answer {
+            Answer::Nothing | Answer::Unclear => None,
             Answer::Root(t, gradient) => Some(Hit {
                 verdict: Verdict::Hit,
                 fallback: false,
@@ -137,9 +173,6 @@ impl<F: Field> Tracer<'_, F> {
             }),
             Answer::Somewhere => Some(Hit { verdict: Verdict::Hit, ..Hit::MISS }),
             Answer::Start => Some(self.at_start(leaf, ray)),
-            Answer::Unclear => {
-                self.search_ranges(question, leaf, stretch, journey, scratch, counter)
-            }
         }
     }
 

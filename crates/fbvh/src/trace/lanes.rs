@@ -2,8 +2,8 @@
 //! where `pulp` finds wider ones at run time, code under its `dispatch` uses those. No operation is
 //! fused, so results are the same on every machine.
 
-use std::array;
-use std::ops::{Add, AddAssign, Mul, Sub};
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Mul, Not, Sub};
+use std::{array, iter};
 
 /// How many numbers.
 pub(super) const WIDTH: usize = 8;
@@ -11,6 +11,17 @@ pub(super) const WIDTH: usize = 8;
 /// The numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lanes<T>(pub(super) [T; WIDTH]);
+
+/// The lanes of the bits that are set, in their order.
+#[inline(always)]
+pub(super) fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
+    let mut rest = bits & ((1 << WIDTH) - 1);
+    iter::from_fn(move || {
+        let lane = rest.trailing_zeros() as usize;
+        rest &= rest.wrapping_sub(1);
+        (lane < WIDTH).then_some(lane)
+    })
+}
 
 impl<T: Copy> Lanes<T> {
     #[inline(always)]
@@ -20,21 +31,43 @@ impl<T: Copy> Lanes<T> {
 
     #[inline(always)]
     pub(super) fn map<U>(self, function: impl Fn(T) -> U) -> Lanes<U> {
-        Lanes(array::from_fn(|lane| function(self.0[lane])))
+        let [a, b, c, d, e, f, g, h] = self.0;
+        Lanes([
+            function(a),
+            function(b),
+            function(c),
+            function(d),
+            function(e),
+            function(f),
+            function(g),
+            function(h),
+        ])
     }
 
     #[inline(always)]
     pub(super) fn zip<U: Copy, V>(self, other: Lanes<U>, function: impl Fn(T, U) -> V) -> Lanes<V> {
-        Lanes(array::from_fn(|lane| function(self.0[lane], other.0[lane])))
+        let ([a, b, c, d, e, f, g, h], with) = (self.0, other.0);
+        Lanes([
+            function(a, with[0]),
+            function(b, with[1]),
+            function(c, with[2]),
+            function(d, with[3]),
+            function(e, with[4]),
+            function(f, with[5]),
+            function(g, with[6]),
+            function(h, with[7]),
+        ])
     }
 }
 
 impl<T: Copy + PartialOrd> Lanes<T> {
+    /// The greater one; the other where this is not a number.
     #[inline(always)]
     pub(super) fn max(self, other: Self) -> Self {
         self.zip(other, |a, b| if a > b { a } else { b })
     }
 
+    /// The lesser one; the other where this is not a number.
     #[inline(always)]
     pub(super) fn min(self, other: Self) -> Self {
         self.zip(other, |a, b| if a < b { a } else { b })
@@ -57,10 +90,77 @@ impl Lanes<f32> {
     }
 }
 
-/// Whether any lane is true.
-#[inline(always)]
-pub(super) fn any(lanes: Lanes<bool>) -> bool {
-    lanes.0.iter().fold(false, |any, &lane| any | lane)
+/// What holds in which lanes: all bits of a lane, or none.
+pub(super) type Mask = Lanes<u32>;
+
+impl Mask {
+    pub(super) const NONE: Self = Self([0; WIDTH]);
+
+    /// The lanes of the bits that are set.
+    #[inline(always)]
+    pub(super) fn from_bits(bits: u32) -> Self {
+        Self(array::from_fn(|lane| if bits & 1 << lane == 0 { 0 } else { u32::MAX }))
+    }
+
+    /// Lane i in bit i.
+    #[inline(always)]
+    pub(super) fn bits(self) -> u32 {
+        (0..WIDTH).fold(0, |bits, lane| bits | self.0[lane] & 1 << lane)
+    }
+
+    /// Whether it holds in any lane.
+    #[inline(always)]
+    pub(super) fn any(self) -> bool {
+        self.0.iter().fold(0, |bits, &lane| bits | lane) != 0
+    }
+
+    /// The one where it holds, the other elsewhere.
+    #[inline(always)]
+    pub(super) fn select(self, yes: Lanes<f32>, no: Lanes<f32>) -> Lanes<f32> {
+        let chosen = yes.zip(no, |yes, no| (yes, no));
+        self.zip(chosen, |mask, (yes, no)| if mask != 0 { yes } else { no })
+    }
+}
+
+impl<T: Copy + PartialOrd> Lanes<T> {
+    /// Where this is less; nowhere where either is not a number.
+    #[inline(always)]
+    pub(super) fn is_less(self, other: Self) -> Mask {
+        self.zip(other, |a, b| if a < b { u32::MAX } else { 0 })
+    }
+
+    /// Where this is at most the other; nowhere where either is not a number.
+    #[inline(always)]
+    pub(super) fn is_at_most(self, other: Self) -> Mask {
+        self.zip(other, |a, b| if a <= b { u32::MAX } else { 0 })
+    }
+}
+
+impl BitAnd for Mask {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        self.zip(other, |a, b| a & b)
+    }
+}
+
+impl BitOr for Mask {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        self.zip(other, |a, b| a | b)
+    }
+}
+
+impl Not for Mask {
+    type Output = Self;
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        self.map(|a| !a)
+    }
 }
 
 impl<T: Copy + Add<Output = T>> Add for Lanes<T> {

@@ -6,7 +6,7 @@ use metaball_core::{Kernel, Ray};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::bernstein::{inverse_binomials, negative_until, only_root, value_and_slope};
-use super::lanes::{Lanes, any};
+use super::lanes::{Lanes, Mask};
 use super::pack::{Local, Pack, Part, UNIT};
 use super::{Counter, Crossing};
 
@@ -36,7 +36,7 @@ pub(super) struct Question {
 }
 
 /// Intervals looked at before the search gives up: two are the rule.
-const MOST_INTERVALS: usize = 24;
+pub(super) const MOST_INTERVALS: usize = 24;
 
 impl Question {
     /// Searches a leaf that has been taken up, over the ray's stretch in it.
@@ -137,26 +137,42 @@ impl Question {
     /// Encloses the field on an interval, unless rounding drowns it.
     #[inline(always)]
     fn sums<const N: usize>(&self, parts: &[Part], start: f32, end: f32) -> Option<Sums<N>> {
+        let terms = self.terms::<N>(parts, Lanes::splat(start), Lanes::splat(end));
+        Sums::new(self, parts.len(), &terms)
+    }
+
+    /// Adds up lane by lane what encloses the field on an interval.
+    #[inline(always)]
+    pub(super) fn terms<const N: usize>(
+        &self,
+        parts: &[Part],
+        start: Lanes<f32>,
+        end: Lanes<f32>,
+    ) -> Terms<N> {
         let zero = Lanes::splat(0.0f32);
-        let (mut most, mut least, mut error) = ([zero; N], [zero; N], zero);
+        let (mut most, mut least) = ([zero; N], [zero; N]);
+        let (mut error, mut falls) = (zero, Mask::NONE);
         let (start_square, product, end_square) = (start * start, start * end, end * end);
-        let middle = 0.5 * (start + end);
+        let middle = (start + end) * 0.5;
         for part in parts {
-            let at = |t: f32, square: f32| part.constant + part.linear * t - part.square * square;
+            let at = |t: Lanes<f32>, square| part.constant + part.linear * t - part.square * square;
             let v = [at(start, start_square), at(middle, product), at(end, end_square)];
             let top = v[0].max(v[1]).max(v[2]) + part.margin;
-            if !any(top.map(|v| v > 0.0)) {
+            let reaches = !top.is_at_most(zero);
+            if !reaches.any() {
                 continue;
             }
-            let covers = v[0].min(v[2]).zip(part.margin, |v, margin| v >= margin);
+            let covers = part.margin.is_at_most(v[0].min(v[2]));
             let terms = self.coefficients::<N>(v.map(|v| v.max(zero)), part.strength);
             for k in 0..N {
                 most[k] += terms[k];
-                least[k] += terms[k].zip(covers, |term, covers| if covers { term } else { 0.0 });
+                least[k] += covers.select(terms[k], zero);
             }
             error += part.strength * part.margin * self.slope::<N>(top.max(zero));
+            let end_slope = part.linear - part.square * end * 2.0;
+            falls = falls | reaches & !part.slope_margin.is_at_most(end_slope);
         }
-        Sums::new(self, parts.len(), &most, &least, error)
+        Terms { most, least, error, falls }
     }
 
     /// The coefficients of q·k(v), times their binomials: those of a product of polynomials are then
@@ -189,7 +205,7 @@ impl Question {
 
     /// dk/dv.
     #[inline(always)]
-    fn slope<const N: usize>(&self, v: Lanes<f32>) -> Lanes<f32> {
+    pub(super) fn slope<const N: usize>(&self, v: Lanes<f32>) -> Lanes<f32> {
         if self.kernel == Kernel::Wyvill {
             return v.map(|v| v * (10.0 + 12.0 * v) * (1.0 / 9.0));
         }
@@ -257,7 +273,10 @@ impl Question {
 
     /// k(v) and dk/dv for v ≥ 0.
     #[inline(always)]
-    fn value_and_slope<const N: usize>(&self, v: Lanes<f64>) -> (Lanes<f64>, Lanes<f64>) {
+    pub(super) fn value_and_slope<const N: usize>(
+        &self,
+        v: Lanes<f64>,
+    ) -> (Lanes<f64>, Lanes<f64>) {
         if self.kernel == Kernel::Wyvill {
             return (
                 v.map(|v| v * v * (5.0 + 4.0 * v) * (1.0 / 9.0)),
@@ -314,6 +333,16 @@ fn multiply<const N: usize>(
     }
 }
 
+/// Sums over balls, lane by lane: coefficients, times their binomials, of the polynomials above and
+/// below the field, and how far rounding of the parabolas can move the field.
+pub(super) struct Terms<const N: usize> {
+    pub(super) most: [Lanes<f32>; N],
+    pub(super) least: [Lanes<f32>; N],
+    pub(super) error: Lanes<f32>,
+    /// Where some ball may fall before the interval's end.
+    pub(super) falls: Mask,
+}
+
 /// Enclosures of what is to cross zero upwards, in Bernstein coefficients: F − T on the way in,
 /// T − F on the way out.
 struct Sums<const N: usize> {
@@ -330,9 +359,7 @@ impl<const N: usize> Sums<N> {
     fn new(
         question: &Question,
         parts: usize,
-        most: &[Lanes<f32>; N],
-        least: &[Lanes<f32>; N],
-        error: Lanes<f32>,
+        Terms { most, least, error, .. }: &Terms<N>,
     ) -> Option<Self> {
         let inverses = const { inverse_binomials::<N>() };
         // Products and sums of non-negative terms: one rounding each.

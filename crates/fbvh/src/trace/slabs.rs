@@ -13,7 +13,7 @@ pub(super) struct Slabs {
 
 /// 1 + 2γ₃, γ₃ = 3w/(1 − 3w), w = 2⁻²⁴: after this no rounding of the three operations can make a
 /// ray miss a box that it meets (Ize 2013, Robust BVH Ray Traversal).
-const WIDER: f32 = 1.0 + 4e-7;
+pub(super) const WIDER: f32 = 1.0 + 4e-7;
 
 impl Slabs {
     pub(super) fn new(ray: &Ray) -> Self {

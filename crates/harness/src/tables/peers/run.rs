@@ -176,7 +176,8 @@ fn trace(scene: &Scene, view: &View, rounds: &mut Rounds) -> anyhow::Result<Vec<
     rounds.prepare.push(milliseconds(start.elapsed()));
 
     let (start, cpu) = (Instant::now(), processor_ms());
-    let hits = Tracer::new(&tree, scene, TraceOptions::DEFAULT).first_hits(&rays(view));
+    let tracer = Tracer::new(&tree, scene, TraceOptions::DEFAULT);
+    let hits = tracer.picture_hits(&rays(view), view.width() as usize);
     rounds.trace.push(milliseconds(start.elapsed()));
     rounds.cpu.extend(processor_ms().zip(cpu).map(|(end, start)| end - start));
     Ok(hits)

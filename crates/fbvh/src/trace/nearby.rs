@@ -1,0 +1,180 @@
+//! A leaf's balls as a packet of rays sees them.
+
+use super::lanes::{Lanes, WIDTH, lanes_of};
+use super::pack::{Part, UNIT};
+use super::packet::{Exact, Packet, length_squared};
+use crate::Field;
+
+/// A ball, seen from the middle of its leaf's box.
+#[derive(Debug, Clone)]
+pub(super) struct Ball {
+    /// The centre, f64 and rounded.
+    pub(super) exact: [f64; 3],
+    pub(super) center: [f32; 3],
+    /// 1/R².
+    pub(super) inverse_square: f64,
+    pub(super) inverse_square_f32: f32,
+    /// R and 1/R.
+    pub(super) radius: f32,
+    pub(super) inverse_radius: f32,
+    /// The centre's distance over R.
+    pub(super) away: f32,
+    pub(super) strength: f32,
+}
+
+/// Eight balls, for telling which of them a packet passes by.
+#[derive(Debug, Clone)]
+struct Block {
+    center: [Lanes<f32>; 3],
+    /// The radius and what rounding can add.
+    radius: Lanes<f32>,
+    /// The lanes that have a ball.
+    balls: u32,
+}
+
+/// A leaf made ready for packets; kept from leaf to leaf for its memory.
+#[derive(Debug, Default)]
+pub(super) struct Nearby {
+    leaf: Option<usize>,
+    middle: [f64; 3],
+    pub(super) balls: Vec<Ball>,
+    blocks: Vec<Block>,
+    /// The balls that reach a ray's stretch, and what the rays make of each.
+    pub(super) kept: Vec<u32>,
+    pub(super) parts: Vec<Part>,
+}
+
+/// The rays' stretches in a leaf, from points beside the leaf's middle, as
+/// [`Local`](super::pack::Local).
+pub(super) struct Locals {
+    pub(super) origin: [Lanes<f64>; 3],
+    pub(super) base: Lanes<f64>,
+    pub(super) half: Lanes<f32>,
+    /// How far points of the stretches and their origins are from the leaf's middle, and what f64
+    /// rounds on the way from the eye.
+    pub(super) reach: Lanes<f32>,
+}
+
+/// More than all that f32 rounds of distances, per distance from the leaf's middle.
+const FAR: f32 = 64.0 * UNIT;
+
+impl Nearby {
+    /// Takes up the balls of a leaf, unless it holds them already.
+    pub(super) fn take(
+        &mut self,
+        field: &impl Field,
+        leaf: usize,
+        bounds: &metaball_core::Aabb,
+        list: &[u32],
+    ) {
+        if self.leaf == Some(leaf) {
+            return;
+        }
+        self.leaf = Some(leaf);
+        let middle = bounds.center().as_dvec3();
+        self.middle = middle.to_array();
+        self.balls.clear();
+        self.balls.extend(list.iter().map(|&ball| {
+            let support = field.support(ball as usize);
+            let center = support.center.as_dvec3() - middle;
+            let inverse = f64::from(support.radius).recip();
+            let inverse_square = inverse * inverse;
+            let (rounded, inverse_radius) = (center.as_vec3(), inverse as f32);
+            Ball {
+                exact: center.to_array(),
+                center: rounded.to_array(),
+                inverse_square,
+                inverse_square_f32: inverse_square as f32,
+                radius: support.radius,
+                inverse_radius,
+                away: rounded.length() * inverse_radius,
+                strength: field.strength(ball as usize),
+            }
+        }));
+        self.blocks.clear();
+        self.blocks.extend(self.balls.chunks(WIDTH).map(|balls| {
+            let zero = Lanes::splat(0.0);
+            let (mut center, mut radius) = ([zero; 3], zero);
+            for (lane, ball) in balls.iter().enumerate() {
+                for (lanes, coordinate) in center.iter_mut().zip(ball.center) {
+                    lanes.0[lane] = coordinate;
+                }
+                radius.0[lane] = ball.radius * (1.0 + FAR * ball.away);
+            }
+            Block { center, radius, balls: (1 << balls.len()) - 1 }
+        }));
+    }
+
+    /// Lists the balls that may reach a stretch: those that come as near to that of one ray as the
+    /// other rays' are, a point of which is no farther from its twin there than the ends are.
+    #[inline(always)]
+    pub(super) fn cull(&mut self, packet: &Packet, locals: &Locals, asked: usize) {
+        let zero = Lanes::splat(0.0f32);
+        let (mut start, mut end) = (zero, zero);
+        let (mut from, mut way) = ([zero; 3], [zero; 3]);
+        for axis in 0..3 {
+            let origin = locals.origin[axis].map(|x| x as f32);
+            let half_way = packet.direction[axis] * locals.half;
+            let (near, far) = (origin - half_way, origin + half_way);
+            from[axis] = Lanes::splat(near.0[asked]);
+            way[axis] = Lanes::splat(far.0[asked] - near.0[asked]);
+            let (near, far) = (near - from[axis], far - Lanes::splat(far.0[asked]));
+            start += near * near;
+            end += far * far;
+        }
+        let spread = start.max(end).sqrt() + locals.reach * FAR;
+        let square = length_squared(way);
+        // Where f32 overflows no ball is passed by.
+        let is_finite = (spread + square).0.iter().all(|number| number.is_finite());
+        let widest = spread.0.into_iter().fold(0.0f32, f32::max);
+        let spread = if is_finite { widest } else { f32::INFINITY };
+        let inverse = square.map(|square| 1.0 / square.max(f32::MIN_POSITIVE));
+        self.kept.clear();
+        for (at, block) in self.blocks.iter().enumerate() {
+            let [x, y, z] = block.center;
+            let (x, y, z) = (x - from[0], y - from[1], z - from[2]);
+            let t = (x * way[0] + y * way[1] + z * way[2]) * inverse;
+            let t = t.min(Lanes::splat(1.0)).max(zero);
+            let distance = length_squared([x - way[0] * t, y - way[1] * t, z - way[2] * t]);
+            let reach = block.radius.map(|radius| radius + spread);
+            let near = block.balls & !(reach * reach).is_less(distance).bits();
+            self.kept.extend(lanes_of(near).map(|lane| (WIDTH * at + lane) as u32));
+        }
+    }
+
+    /// Moves the rays' origins beside the leaf, in f64. Lanes that are not asked repeat one that is.
+    #[inline(always)]
+    pub(super) fn locals(
+        &self,
+        packet: &Packet,
+        exact: &Exact,
+        (start, end): (Lanes<f64>, Lanes<f64>),
+        lanes: u32,
+    ) -> Locals {
+        // Rounded up, as for a single ray.
+        let half = ((end - start) * 0.5).map(|half| {
+            (half * (1.0 + f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE)) as f32
+        });
+        let base = start + half.map(f64::from);
+        let mut origin = exact.origin;
+        for (axis, start) in origin.iter_mut().enumerate() {
+            let direction = packet.direction[axis].map(f64::from);
+            *start = (*start - Lanes::splat(self.middle[axis])) + base * direction;
+        }
+        let [x, y, z] = origin.map(|coordinate| coordinate.map(|x| x as f32));
+        let distance = (x * x + y * y + z * z).sqrt();
+        let middle = self.middle.iter().map(|x| x.abs()).sum::<f64>() as f32;
+        let far = exact.distance + Lanes::splat(middle) + base.map(|base| base.abs() as f32);
+        let far = far * (4.0 * f64::EPSILON / f64::from(UNIT)) as f32;
+        let reach = (distance * 2.0 + half * exact.length + far) * 1.000_01;
+        let mut locals = Locals { origin, base, half, reach };
+        let asked = lanes.trailing_zeros() as usize;
+        for lane in lanes_of(!lanes) {
+            locals.origin.iter_mut().for_each(|numbers| numbers.0[lane] = numbers.0[asked]);
+            locals.base.0[lane] = locals.base.0[asked];
+            locals.half.0[lane] = locals.half.0[asked];
+            locals.reach.0[lane] = locals.reach.0[asked];
+        }
+        locals
+    }
+}
