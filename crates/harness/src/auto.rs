@@ -1,13 +1,15 @@
 //! No more than a scene needs: `auto` draws with the cheapest method, variant and knobs whose error
 //! on this scene, in this view, is small enough.
 //!
-//! Every candidate draws a sparse picture, which is held against the oracle; the quickest of those
-//! that are right enough draw the whole picture, are held against the oracle along rays that the
-//! first picture did not have, and are timed there. The quickest that still is right enough draws.
+//! Every method draws a sparse picture, which is held against the oracle, and cruder versions of those
+//! methods that are right enough and quick draw one too. The quickest that are right enough draw the
+//! whole picture, are held against the oracle along rays that the first picture did not have, and are
+//! timed there. The quickest that still is right enough draws.
 
 pub mod cache;
 pub mod calibration;
 pub mod choice;
+pub mod stage;
 
 use metaball_core::gpu::{
     BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RayTracer, RenderError,
@@ -172,7 +174,7 @@ mod tests {
         let rays = targets.read_rays(&gpu, &view).expect("rays");
         let truths = Oracle::new(&bench.scene).first_hits(&rays);
         let hits = targets.read_hits(&gpu).expect("hits");
-        let errors = Errors::of(truths.iter().zip(&hits), calibration::mean_radius(&bench.scene));
+        let errors = Errors::of(truths.iter().zip(&hits), stage::mean_radius(&bench.scene));
         assert!(errors.keep(MAX_ERROR), "{errors:?}");
         // The cubic is out at this error: its p99 is percents of a radius.
         let choice = first.choice().expect("chosen").clone();

@@ -22,7 +22,7 @@ use harness::render::{Choosing, Device, Drawing, Order, render};
 use harness::settings::Setting;
 use harness::settings::variants::entrants;
 use harness::stability::{self, stability};
-use harness::tables::{gourmel, illes, kanamori, peers};
+use harness::tables::{self, gourmel, illes, kanamori, peers};
 use harness::{chart, console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
@@ -222,6 +222,23 @@ enum Paper {
         /// Folder for peers.html and peers.json.
         #[arg(long, value_name = "DIR", default_value = "out/tables")]
         out: PathBuf,
+    },
+    /// No paper: what auto chooses for two errors, beside the quickest of all that it could have chosen.
+    Auto {
+        /// Known names, generators, or files; eight scenes when left out.
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+        /// Hundreds of balls, small pictures, few candidates: seconds, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Pixels across and down; 320x240 when left out.
+        #[arg(long, value_name = "WxH")]
+        size: Option<Size>,
+        /// Folder for auto.html and auto.json.
+        #[arg(long, value_name = "DIR", default_value = "out/tables")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
     },
 }
 
@@ -477,6 +494,12 @@ fn run(command: Command) -> anyhow::Result<()> {
             let extent = if quick { peers::Extent::Quick } else { peers::Extent::Whole };
             let size = size.map(|Size(width, height)| (width, height));
             peers::tables(&peers::Order { scenes, extent, size, out })
+        }
+        Command::Tables { paper: Paper::Auto { scenes, quick, size, out, device } } => {
+            use tables::auto::{Extent, Order};
+            let extent = if quick { Extent::Quick } else { Extent::Whole };
+            let size = size.map(|Size(width, height)| (width, height));
+            tables::auto::tables(&Order { scenes, extent, size, adapter: device.choice(), out })
         }
         Command::Stability { quick, cases, methods, out, device } => {
             stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })

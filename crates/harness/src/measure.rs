@@ -15,7 +15,7 @@ use crate::stats::median;
 pub struct Contender {
     /// What building took.
     pub build: BuildReport,
-    /// What it found in its first frame, row by row from the top left.
+    /// What it found in the frame drawn last apart from timing, row by row from the top left.
     pub hits: Vec<Hit>,
     renderer: Box<dyn IsoRenderer>,
 }
@@ -64,6 +64,16 @@ impl Contender {
         gpu::render(gpu, renderer.as_mut(), targets, view)?;
         let hits = targets.read_hits(gpu)?;
         Ok(Self { build, hits, renderer })
+    }
+
+    /// Draws another view, into targets of any size: `hits` are of that one now.
+    ///
+    /// # Errors
+    /// When its frame stays incomplete.
+    pub fn redraw(&mut self, gpu: &Gpu, targets: &Targets, view: &View) -> Result<(), RenderError> {
+        gpu::render(gpu, self.renderer.as_mut(), targets, view)?;
+        self.hits = targets.read_hits(gpu)?;
+        Ok(())
     }
 
     /// Bytes that it holds on the device by now, for the scene and for its frames.

@@ -4,6 +4,7 @@
 pub mod cell;
 pub mod limits;
 mod page;
+mod patience;
 pub mod record;
 pub mod stand;
 
@@ -14,6 +15,7 @@ use bench_scenes::{Case, cases};
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
 use self::cell::{Cell, Outcome};
+use self::patience::rests;
 use self::record::{Limit, SCHEMA, Stability};
 use self::stand::Stand;
 use crate::console::{self, Progress, table};
@@ -81,7 +83,7 @@ fn values(case: &Case, quick: bool) -> &'static [f64] {
     if quick { case.quick } else { case.values }
 }
 
-/// Tries all values of all cases; `keep` is told of all cells after every case.
+/// Tries all values of all cases; `keep` is told of all cells after every value.
 fn climb(
     gpu: &Gpu,
     quick: bool,
@@ -100,11 +102,13 @@ fn climb(
         for &value in values(case, quick) {
             let is_here = |cell: &Cell| cell.case == case.name && cell.value == value;
             if !cells.iter().any(is_here) {
-                cells.extend(stand.attempt(case, value)?);
+                let easier = || cells.iter().filter(|cell| cell.case == case.name);
+                let tried = stand.attempt(case, value, |entrant| rests(easier(), entrant))?;
+                cells.extend(tried);
+                keep(&cells)?;
             }
             progress.advance(1);
         }
-        keep(&cells)?;
     }
     Ok(())
 }
@@ -150,7 +154,13 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Setting]) -> Strin
             count += 1;
         }
     }
-    let cells = stability.cells.len();
-    text += &format!("\n\n{} of {cells} outcomes are as stated", cells - count);
-    text + &unexpected
+    let tried = stability.tried();
+    text += &format!("\n\n{} of {tried} outcomes are as stated", tried - count);
+    text += &unexpected;
+    for cell in stability.of_outcome(Outcome::Untried) {
+        let reason = cell.note.as_deref().unwrap_or_default();
+        text +=
+            &format!("\n  {}, {} = {}: {reason}", cell.method, cell.case, page::tick(cell.value));
+    }
+    text
 }

@@ -1,6 +1,7 @@
-//! Tables that papers print, measured anew and set beside the printed numbers; and one of programs
-//! that a user would take instead.
+//! Tables that papers print, measured anew and set beside the printed numbers; one of programs that a
+//! user would take instead, and one of what `auto` chooses.
 
+pub mod auto;
 pub mod gourmel;
 pub mod illes;
 pub mod kanamori;

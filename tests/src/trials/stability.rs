@@ -32,7 +32,7 @@ fn is_as_stated(gpu: &Gpu, entrant: &Setting) -> Result<(), Failed> {
     for case in cases() {
         for &value in case.quick {
             let needed = expected(&entrant.name, case, value);
-            for found in stand.attempt(case, value)? {
+            for found in stand.attempt(case, value, |_| None)? {
                 if found.outcome != needed {
                     wrong += &format!("\n  needed {needed:?}, found {found:?}");
                 }
@@ -49,7 +49,7 @@ fn notices_a_broken_promise(gpu: &Gpu) -> Result<(), Failed> {
     let case = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
     let outcome = |terms| -> Result<Vec<Outcome>, Failed> {
         let stand = &mut Stand::holding(gpu, [(published.clone(), terms)]);
-        let cells: Vec<Cell> = stand.attempt(case, 2.0)?;
+        let cells: Vec<Cell> = stand.attempt(case, 2.0, |_| None)?;
         Ok(cells.iter().map(|cell| cell.outcome).collect())
     };
     let found = (outcome(terms_of("kanamori"))?, outcome(terms_of("kanamori-robust"))?);

@@ -2,12 +2,13 @@
 
 use std::time::Duration;
 
-use metaball_core::gpu::{Frame, Gpu, RenderError, Targets};
-use metaball_core::reference::{Oracle, Truth};
+use metaball_core::gpu::{Gpu, RenderError};
+use metaball_core::reference::Oracle;
 use metaball_core::{Scene, View};
 
-use super::choice::{Choice, Errors, Outcome, Sketch, choose};
-use crate::measure::{Contender, Sampling, time_all, views};
+use super::choice::{Candidate, Choice, Errors, Outcome, Sketch, Trial, choose};
+use super::stage::Stage;
+use crate::measure::{Contender, Sampling, Timing, time_all, views};
 use crate::numbers::small;
 use crate::settings::Setting;
 
@@ -20,8 +21,8 @@ const HELD_OUT_RAYS: usize = 96 * 72;
 /// Two frames of a sparse picture.
 const SPARSE: Sampling = Sampling::exactly(2);
 
-/// Five frames of a whole picture, or what fits into two seconds.
-const WHOLE: Sampling = Sampling { most: 5, enough: Duration::from_secs(2) };
+/// Four frames of a whole picture, or what fits into a second.
+const WHOLE: Sampling = Sampling { most: 4, enough: Duration::from_secs(1) };
 
 /// Chooses the quickest of the candidates for the scene in this view whose error is at most
 /// `max_error` mean support radii, with at most one wrong verdict in 10⁵ rays.
@@ -32,29 +33,25 @@ pub fn calibrate(
     gpu: &Gpu,
     scene: &Scene,
     view: &View,
-    candidates: &[Setting],
+    settings: &[Setting],
     max_error: f64,
 ) -> Result<Choice, RenderError> {
     let oracle = Oracle::new(scene);
     // The sparse picture's eye is moved a little: none of its rays is one of the whole picture's.
-    let sparse_size = sparse_size(view.width(), view.height());
-    let sparse_views = nearby(scene, view, sparse_size, SPARSE)?;
+    let sparse_views = nearby(scene, view, sparse_size(view.width(), view.height()), SPARSE)?;
     let Some(sparse_view) = sparse_views.first() else { return Err(refused(String::new())) };
-    let sparse_stage = Stage::new(gpu, scene, &oracle, sparse_view, usize::MAX)?;
-    let sketch = |setting: &Setting| {
-        let mut outcomes = sparse_stage.draw(&[setting], &sparse_views, SPARSE.enough);
-        outcomes.pop().unwrap_or_else(|| Err("not drawn".to_owned()))
+    let mut calibration = Calibration {
+        gpu,
+        scene,
+        settings,
+        max_error,
+        sparse: Stage::new(gpu, scene, &oracle, sparse_view, usize::MAX)?,
+        sparse_views: &sparse_views,
+        whole: Stage::new(gpu, scene, &oracle, view, HELD_OUT_RAYS)?,
+        whole_views: nearby(scene, view, (view.width(), view.height()), WHOLE)?,
+        contenders: settings.iter().map(|_| None).collect(),
     };
-    let sparse: Vec<_> = candidates.iter().map(sketch).collect();
-
-    let whole_views = nearby(scene, view, (view.width(), view.height()), WHOLE)?;
-    let whole_stage = Stage::new(gpu, scene, &oracle, view, HELD_OUT_RAYS)?;
-    let names: Vec<_> = candidates.iter().map(|setting| setting.name.as_str()).collect();
-    let examine = |places: &[usize]| {
-        let few: Vec<_> = places.iter().map(|&place| &candidates[place]).collect();
-        whole_stage.draw(&few, &whole_views, WHOLE.enough)
-    };
-    choose(&names, &sparse, max_error, examine).map_err(|left_out| {
+    choose(&entries(settings), max_error, &mut calibration).map_err(|left_out| {
         let reasons: Vec<_> =
             left_out.iter().map(|(name, reason)| format!("{name}: {reason}")).collect();
         let needed = small(max_error);
@@ -66,10 +63,17 @@ pub fn calibrate(
     })
 }
 
-/// The mean support radius.
-pub fn mean_radius(scene: &Scene) -> f64 {
-    let sum: f64 = scene.supports().iter().map(|ball| f64::from(ball.radius)).sum();
-    sum / scene.len().max(1) as f64
+/// Settings as there are to choose: one with an option turned is a crude version of its method's
+/// preset, where that takes part too.
+fn entries<'a>(settings: &'a [Setting]) -> Vec<Candidate<'a>> {
+    let preset_of = |setting: &Setting| {
+        let is_preset =
+            |other: &Setting| other.options.is_empty() && other.method.name == setting.method.name;
+        settings.iter().position(is_preset).filter(|_| !setting.options.is_empty())
+    };
+    let entry =
+        |setting: &'a Setting| Candidate { name: &setting.name, refines: preset_of(setting) };
+    settings.iter().map(entry).collect()
 }
 
 fn refused(reason: String) -> RenderError {
@@ -94,66 +98,89 @@ fn nearby(
     nearby.map_err(|error| refused(error.to_string()))
 }
 
-/// A view with the truth about some of its rays.
-struct Stage<'a> {
+/// Candidates on their scene. Those that are right enough in the sparse picture keep their renderers
+/// for the whole one: composing shaders and compiling them takes longer than drawing.
+struct Calibration<'a> {
     gpu: &'a Gpu,
     scene: &'a Scene,
-    view: &'a View,
-    targets: Targets,
-    /// Rising indices of pixels with the truth about each.
-    truths: Vec<(usize, Truth)>,
-    mean_radius: f64,
+    settings: &'a [Setting],
+    max_error: f64,
+    sparse: Stage<'a>,
+    sparse_views: &'a [View],
+    whole: Stage<'a>,
+    whole_views: Vec<View>,
+    contenders: Vec<Option<Contender>>,
 }
 
-impl<'a> Stage<'a> {
-    /// Asks the oracle about at most so many rays, spread evenly.
-    fn new(
-        gpu: &'a Gpu,
-        scene: &'a Scene,
-        oracle: &Oracle<'_>,
-        view: &'a View,
-        most_rays: usize,
-    ) -> Result<Self, RenderError> {
-        let has_colors = scene.colors().is_some();
-        let targets = Targets::new(gpu, view.width(), view.height(), has_colors, false)?;
-        // A frame without a method makes the rays.
-        Frame::begin(gpu, &targets, view)?.finish()?;
-        let rays = targets.read_rays(gpu, view)?;
-        let count = rays.len().min(most_rays);
-        let pixels: Vec<_> = (0..count).map(|index| index * rays.len() / count).collect();
-        let chosen: Vec<_> = pixels.iter().map(|&pixel| rays[pixel]).collect();
-        let truths = pixels.into_iter().zip(oracle.first_hits(&chosen)).collect();
-        Ok(Self { gpu, scene, view, targets, truths, mean_radius: mean_radius(scene) })
+impl Trial for Calibration<'_> {
+    fn sketch(&mut self, place: usize) -> Outcome {
+        let (stage, renderer) = (&self.sparse, self.settings[place].renderer(false));
+        let prepared =
+            Contender::prepare(self.gpu, renderer, self.scene, &stage.targets, stage.view);
+        let contender = prepared.map_err(|error| error.to_string())?;
+        let errors = stage.errors(&contender);
+        if !errors.keep(self.max_error) {
+            return Ok(Sketch { errors, frame_ms: f64::INFINITY });
+        }
+        let mut alone = [contender];
+        let timed = self.time(&self.sparse, &mut alone, self.sparse_views, SPARSE.enough);
+        let frame_ms = timed.into_iter().next().unwrap_or_else(|| Err("not timed".to_owned()))?;
+        let [contender] = alone;
+        self.contenders[place] = Some(contender);
+        Ok(Sketch { errors, frame_ms })
     }
 
-    /// Draws with each, holds the pictures against the truth, and times them in turn.
-    fn draw(&self, settings: &[&Setting], views: &[View], enough: Duration) -> Vec<Outcome> {
-        let mut contenders = Vec::new();
+    fn examine(&mut self, places: &[usize]) -> Vec<Outcome> {
+        let mut drawn = Vec::new();
         let mut outcomes = Vec::new();
-        for setting in settings {
-            let renderer = setting.renderer(false);
-            let (scene, targets) = (self.scene, &self.targets);
-            match Contender::prepare(self.gpu, renderer, scene, targets, self.view) {
-                Ok(contender) => {
-                    outcomes.push(Ok(self.errors(&contender)));
-                    contenders.push(contender);
+        for &place in places {
+            outcomes.push(self.redraw(place).map(|contender| {
+                let errors = self.whole.errors(&contender);
+                if errors.keep(self.max_error) {
+                    drawn.push(contender);
                 }
-                Err(error) => outcomes.push(Err(error.to_string())),
-            }
+                errors
+            }));
         }
-        let timings = time_all(self.gpu, &mut contenders, &self.targets, views, enough, || ());
-        let mut timings = timings.into_iter();
+        let timed = self.time(&self.whole, &mut drawn, &self.whole_views, WHOLE.enough);
+        let mut timed = timed.into_iter();
         let outcome = |errors: Result<Errors, String>| {
             let errors = errors?;
-            let timing = timings.next().ok_or("not timed")?.map_err(|error| error.to_string())?;
-            Ok(Sketch { errors, frame_ms: timing.frame_ms.median })
+            let frame_ms = if errors.keep(self.max_error) {
+                timed.next().unwrap_or_else(|| Err("not timed".to_owned()))?
+            } else {
+                f64::INFINITY
+            };
+            Ok(Sketch { errors, frame_ms })
         };
         outcomes.into_iter().map(outcome).collect()
     }
+}
 
-    fn errors(&self, contender: &Contender) -> Errors {
-        let pairs = self.truths.iter().map(|(pixel, truth)| (truth, &contender.hits[*pixel]));
-        Errors::of(pairs, self.mean_radius)
+impl Calibration<'_> {
+    /// The whole picture, by the renderer that drew the sparse one.
+    fn redraw(&mut self, place: usize) -> Result<Contender, String> {
+        let mut contender =
+            self.contenders[place].take().ok_or("drawn before, and was not right enough")?;
+        let whole = &self.whole;
+        let redrawn = contender.redraw(self.gpu, &whole.targets, whole.view);
+        redrawn.map(|()| contender).map_err(|error| error.to_string())
+    }
+
+    /// Median milliseconds of each contender's frames, in turn.
+    fn time(
+        &self,
+        stage: &Stage<'_>,
+        contenders: &mut [Contender],
+        views: &[View],
+        enough: Duration,
+    ) -> Vec<Result<f64, String>> {
+        let timings = time_all(self.gpu, contenders, &stage.targets, views, enough, || ());
+        let median = |timing: Timing| timing.frame_ms.median;
+        timings
+            .into_iter()
+            .map(|timing| timing.map(median).map_err(|error| error.to_string()))
+            .collect()
     }
 }
 

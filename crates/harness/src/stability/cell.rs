@@ -16,6 +16,8 @@ pub enum Outcome {
     Right,
     /// Every clear ray is on the right front, but more than one hit in 100 lies beyond the tolerance.
     Coarse,
+    /// Not run, with the reason: nothing is known.
+    Untried,
     /// Not every ray has an answer, and the method says so: by marks on the pixels, or by a refusal
     /// with its reason.
     Told,
@@ -27,13 +29,15 @@ pub enum Outcome {
 
 impl Outcome {
     /// All, from good to bad.
-    pub const ALL: [Self; 5] = [Self::Right, Self::Coarse, Self::Told, Self::Lost, Self::Broken];
+    pub const ALL: [Self; 6] =
+        [Self::Right, Self::Coarse, Self::Untried, Self::Told, Self::Lost, Self::Broken];
 
     /// In one word, as in records.
     pub fn word(self) -> &'static str {
         match self {
             Self::Right => "right",
             Self::Coarse => "coarse",
+            Self::Untried => "untried",
             Self::Told => "told",
             Self::Lost => "lost",
             Self::Broken => "broken",
@@ -52,6 +56,8 @@ pub struct Cell {
     pub method: String,
     /// What became of it.
     pub outcome: Outcome,
+    /// What building and drawing took, in seconds.
+    pub seconds: f64,
     /// Rays that the oracle can call; the counts below are of these.
     pub clear: usize,
     /// Rays that it cannot.
@@ -63,10 +69,13 @@ pub struct Cell {
     /// Rays wrong and not marked, where the answer is promised.
     pub broken: usize,
     /// |Δt|/R of the hits that are right and not marked.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<RadiusError>,
     /// Pixels that differ in any bit from the frame drawn before, where one was.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub differing: Option<usize>,
     /// Why there is no picture, or the first thing that is wrong with it.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
 
@@ -78,6 +87,7 @@ impl Cell {
             value,
             method: entrant.to_owned(),
             outcome: Outcome::Told,
+            seconds: 0.0,
             clear: 0,
             ambiguous: 0,
             told: 0,
@@ -87,6 +97,11 @@ impl Cell {
             differing: None,
             note: Some(reason),
         }
+    }
+
+    /// A method that is not run, and why.
+    pub(super) fn untried(case: &str, value: f64, entrant: &str, reason: String) -> Self {
+        Self { outcome: Outcome::Untried, ..Self::refused(case, value, entrant, reason) }
     }
 
     /// Judges a picture. `differing` counts pixels that are not as in the frame drawn before;

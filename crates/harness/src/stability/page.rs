@@ -5,6 +5,7 @@ use std::fmt::Write;
 use bench_scenes::Case;
 
 use super::cell::{Cell, Outcome};
+use super::patience::PATIENCE_S;
 use super::record::{Limit, Stability};
 use crate::html::{escape, fill};
 use crate::numbers::small;
@@ -31,14 +32,22 @@ pub(super) fn page(stability: &Stability, cases: &[&Case], entrants: &[Setting])
 /// How the outcomes stand to the table of stated limits.
 fn remarks(stability: &Stability) -> Vec<String> {
     let unexpected: usize = stability.limits.iter().map(|limit| limit.unexpected.len()).sum();
-    let cells = stability.cells.len();
-    if unexpected == 0 {
-        return Vec::new();
+    let mut remarks = Vec::new();
+    if unexpected > 0 {
+        remarks.push(format!(
+            "{unexpected} of {} outcomes are not what the table of stated limits says; they are \
+             underlined in the matrix.",
+            stability.tried()
+        ));
     }
-    vec![format!(
-        "{unexpected} of {cells} outcomes are not what the table of stated limits says; they are \
-         underlined in the matrix."
-    )]
+    if stability.of_outcome(Outcome::Untried).next().is_some() {
+        remarks.push(format!(
+            "A published method that took more than {PATIENCE_S} s at one value of a case is not run \
+             at the harder ones: nothing is known there. Methods that promise to be right everywhere \
+             always are."
+        ));
+    }
+    remarks
 }
 
 /// What each outcome means.
@@ -46,6 +55,9 @@ fn meaning(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Right => "every clear ray right, 99 of 100 hits within the method's tolerance",
         Outcome::Coarse => "every clear ray on the right front, but hits beyond the tolerance",
+        Outcome::Untried => {
+            "not run, since the method took too long at an easier value: nothing is known"
+        }
         Outcome::Told => {
             "not every ray has its own answer, and the method says so: marked pixels, \
                           or a refusal with its reason"
@@ -166,6 +178,7 @@ fn fill_of(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Right => "#e3eff8",
         Outcome::Coarse => "#9cc4e4",
+        Outcome::Untried => "#ffffff",
         Outcome::Told => "#f5d76e",
         Outcome::Lost => "#d55e00",
         Outcome::Broken => "#33102f",
@@ -177,6 +190,9 @@ fn sign(outcome: Outcome, x: f64) -> String {
     let (path, stroke) = match outcome {
         Outcome::Right => return String::new(),
         Outcome::Coarse => (format!("M{} 6h4", x + 1.5), "#08306b"),
+        Outcome::Untried => {
+            (format!("M{} 4h1M{} 6h1M{} 8h1", x + 3.0, x + 3.0, x + 3.0), "#57606a")
+        }
         Outcome::Told => (format!("M{} 9.5L{} 2.5", x + 1.0, x + 6.0), "#6b5500"),
         Outcome::Lost => (format!("M{} 6h3", x + 2.0), "#fff"),
         Outcome::Broken => (format!("M{x} 3l5 6M{x} 9l5 -6", x = x + 1.0), "#fff"),
@@ -238,7 +254,7 @@ fn value_cell(cell: &Cell) -> String {
     if let Some(differing) = cell.differing {
         parts.push(format!("{differing} differ"));
     }
-    if cell.clear + cell.ambiguous == 0 {
+    if is_refusal(cell) {
         parts.push("refused".to_owned());
     } else if parts.is_empty() {
         parts.push(cell.outcome.word().to_owned());
@@ -251,19 +267,26 @@ fn value_cell(cell: &Cell) -> String {
     )
 }
 
-/// The reasons of refusals, each once.
+/// Whether a method was run and drew nothing.
+fn is_refusal(cell: &Cell) -> bool {
+    cell.outcome == Outcome::Told && cell.clear + cell.ambiguous == 0
+}
+
+/// The reasons of refusals, and of what was not run, each once.
 fn notes(stability: &Stability) -> String {
-    let refused = stability.cells.iter().filter(|cell| cell.clear + cell.ambiguous == 0);
-    let mut reasons: Vec<_> = refused
-        .filter_map(|cell| cell.note.as_ref().map(|note| format!("{}: {note}", cell.case)))
-        .collect();
-    reasons.dedup();
-    if reasons.is_empty() {
-        return String::new();
-    }
-    let items: String =
-        reasons.iter().map(|reason| format!("<li>{}</li>\n", escape(reason))).collect();
-    format!("<h2>Refusals</h2>\n<ul>\n{items}</ul>\n")
+    let list = |title: &str, cells: &mut dyn Iterator<Item = &Cell>, who: fn(&Cell) -> String| {
+        let mut reasons: Vec<_> = cells
+            .filter_map(|cell| Some(format!("{}: {}", who(cell), cell.note.as_ref()?)))
+            .collect();
+        reasons.dedup();
+        let items: String =
+            reasons.iter().map(|reason| format!("<li>{}</li>\n", escape(reason))).collect();
+        if items.is_empty() { items } else { format!("<h2>{title}</h2>\n<ul>\n{items}</ul>\n") }
+    };
+    let mut refused = stability.cells.iter().filter(|cell| is_refusal(cell));
+    let mut untried = stability.of_outcome(Outcome::Untried);
+    let place = |cell: &Cell| format!("{} = {}, {}", cell.case, tick(cell.value), cell.method);
+    list("Refusals", &mut refused, |cell| cell.case.clone()) + &list("Not run", &mut untried, place)
 }
 
 /// A value as an axis would show it.

@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 use super::cell::{Cell, Outcome};
 use super::limits::expected;
 use crate::machine::Provenance;
-use crate::output::write_json;
+use crate::output::write_json_lines;
 use crate::record::Adapter;
 
 /// Name and version of the format of [`Stability`].
-pub const SCHEMA: &str = "metaball-stability/1";
+pub const SCHEMA: &str = "metaball-stability/2";
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -40,7 +40,7 @@ pub struct Limit {
     pub method: String,
     /// The last value up to which every one is right; `None`: not even the first is.
     pub holds_to: Option<f64>,
-    /// The first value that is not right; `None`: all are.
+    /// The first value that is not right, as far as is known; `None`: all are.
     pub fails_at: Option<f64>,
     /// What becomes of the method there.
     pub first: Outcome,
@@ -61,8 +61,10 @@ impl Limit {
         let worst = cells.iter().map(|cell| cell.outcome).max()?;
         let holds =
             fails.map_or(cells.last(), |index| index.checked_sub(1).map(|last| &cells[last]));
-        let is_unexpected =
-            |cell: &&&Cell| cell.outcome != expected(&cell.method, case, cell.value);
+        let is_unexpected = |cell: &&&Cell| {
+            cell.outcome != Outcome::Untried
+                && cell.outcome != expected(&cell.method, case, cell.value)
+        };
         Some(Self {
             case: case.name.to_owned(),
             parameter: case.parameter.to_owned(),
@@ -83,6 +85,16 @@ impl Stability {
         self.cells.iter().filter(move |cell| cell.case == case && cell.method == method)
     }
 
+    /// Cells in which this became of a method.
+    pub fn of_outcome(&self, outcome: Outcome) -> impl Iterator<Item = &Cell> {
+        self.cells.iter().filter(move |cell| cell.outcome == outcome)
+    }
+
+    /// How many cells were run.
+    pub fn tried(&self) -> usize {
+        self.cells.len() - self.of_outcome(Outcome::Untried).count()
+    }
+
     /// The limit of a method in a case.
     pub fn limit(&self, case: &str, method: &str) -> Option<&Limit> {
         self.limits.iter().find(|limit| limit.case == case && limit.method == method)
@@ -93,7 +105,7 @@ impl Stability {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, path: &Path) -> anyhow::Result<()> {
-        write_json(path, self)
+        write_json_lines(path, self)
     }
 
     /// Reads what an interrupted run has left, if it is of the same program, command and adapter.
@@ -130,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_limit_is_where_the_first_value_fails() {
-        use Outcome::{Coarse, Lost, Right, Told};
+        use Outcome::{Coarse, Lost, Right, Told, Untried};
         let all = limit([Right; 3]);
         assert_eq!((all.holds_to, all.fails_at, all.says_so), (Some(100.0), None, None));
         let none = limit([Coarse, Right, Right]);
@@ -142,6 +154,11 @@ mod tests {
         );
         let lost = limit([Right, Told, Lost]);
         assert_eq!((lost.first, lost.worst, lost.says_so), (Told, Lost, Some(false)));
+        // What was not run is neither right nor wrong, and nothing is expected of it.
+        let rested = limit([Right, Untried, Untried]);
+        assert_eq!((rested.first, rested.worst, rested.says_so), (Untried, Untried, None));
+        assert_eq!((rested.holds_to, rested.fails_at), (Some(10.0), Some(30.0)));
+        assert!(rested.unexpected.is_empty());
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Where cases are tried: the device, and renderers that live on from scene to scene.
 
+use std::time::Instant;
+
 use bench_scenes::{Case, Drawing};
 use metaball_core::gpu::{Frame, Gpu, IsoRenderer, RenderError, Targets, render};
 use metaball_core::reference::Oracle;
@@ -28,6 +30,8 @@ struct Entrant {
     setting: Setting,
     terms: Terms,
     renderer: Box<dyn IsoRenderer>,
+    /// Whether its shaders are composed and compiled, which is no part of what a value takes.
+    is_warm: bool,
 }
 
 impl<'a> Stand<'a> {
@@ -44,16 +48,22 @@ impl<'a> Stand<'a> {
     pub fn holding(gpu: &'a Gpu, settings: impl IntoIterator<Item = (Setting, Terms)>) -> Self {
         let entrant = |(setting, terms): (Setting, Terms)| {
             let renderer = setting.renderer(false);
-            Entrant { setting, terms, renderer }
+            Entrant { setting, terms, renderer, is_warm: false }
         };
         Self { gpu, targets: None, entrants: settings.into_iter().map(entrant).collect() }
     }
 
-    /// Tries every entrant at a value of a case, each against the same truth.
+    /// Tries every entrant at a value of a case, each against the same truth; but one for which
+    /// `rests` has a reason is not run.
     ///
     /// # Errors
     /// When the value makes no scene, or the device fails; what a method refuses is an outcome.
-    pub fn attempt(&mut self, case: &Case, value: f64) -> anyhow::Result<Vec<Cell>> {
+    pub fn attempt(
+        &mut self,
+        case: &Case,
+        value: f64,
+        rests: impl Fn(&Setting) -> Option<String>,
+    ) -> anyhow::Result<Vec<Cell>> {
         let (bench, view) = case.view(value)?;
         let other = match case.drawing {
             Drawing::Shuffled => bench.shuffled()?.scene,
@@ -71,9 +81,17 @@ impl<'a> Stand<'a> {
         let exam = Exam::new(&bench.scene, &oracle, &rays);
 
         let mut cells = Vec::new();
-        for Entrant { setting, terms, renderer } in &mut self.entrants {
+        for Entrant { setting, terms, renderer, is_warm } in &mut self.entrants {
+            if let Some(reason) = rests(setting) {
+                cells.push(Cell::untried(case.name, value, &setting.name, reason));
+                continue;
+            }
             let mut draw =
                 |scene: &Scene| draw(self.gpu, renderer.as_mut(), &targets, scene, &view);
+            if !*is_warm {
+                *is_warm = draw(&bench.scene).is_ok();
+            }
+            let start = Instant::now();
             let drawn = draw(&bench.scene).and_then(|first| match case.drawing {
                 Drawing::Once => Ok((first, None)),
                 Drawing::Twice | Drawing::Shuffled => {
@@ -82,8 +100,9 @@ impl<'a> Stand<'a> {
                     Ok((second, Some(differing)))
                 }
             });
+            let seconds = start.elapsed().as_secs_f64();
             let place = (case.name, value);
-            cells.push(match drawn {
+            let cell = match drawn {
                 Ok((hits, differing)) => {
                     let picture = (&exam, pick(&hits, &pixels));
                     let must_repeat = case.drawing == Drawing::Twice;
@@ -94,7 +113,8 @@ impl<'a> Stand<'a> {
                     Cell::refused(case.name, value, &setting.name, error.to_string())
                 }
                 Err(error) => return Err(error.into()),
-            });
+            };
+            cells.push(Cell { seconds, ..cell });
             if bench.scene.len() > ROOMY {
                 *renderer = setting.renderer(false);
             }

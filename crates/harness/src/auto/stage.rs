@@ -1,0 +1,56 @@
+//! A view with the truth about its rays: what candidates are held against.
+
+use metaball_core::gpu::{Frame, Gpu, RenderError, Targets};
+use metaball_core::reference::{Oracle, Truth};
+use metaball_core::{Scene, View};
+
+use super::choice::Errors;
+use crate::measure::Contender;
+
+/// A view with the truth about some of its rays.
+pub struct Stage<'a> {
+    /// What is drawn.
+    pub view: &'a View,
+    /// Where it is drawn.
+    pub targets: Targets,
+    /// Rising indices of pixels with the truth about each.
+    truths: Vec<(usize, Truth)>,
+    mean_radius: f64,
+}
+
+impl<'a> Stage<'a> {
+    /// Asks the oracle about at most so many rays, spread evenly.
+    ///
+    /// # Errors
+    /// When there are no targets of that size, or the device fails.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        oracle: &Oracle<'_>,
+        view: &'a View,
+        most_rays: usize,
+    ) -> Result<Self, RenderError> {
+        let has_colors = scene.colors().is_some();
+        let targets = Targets::new(gpu, view.width(), view.height(), has_colors, false)?;
+        // A frame without a method makes the rays.
+        Frame::begin(gpu, &targets, view)?.finish()?;
+        let rays = targets.read_rays(gpu, view)?;
+        let count = rays.len().min(most_rays);
+        let pixels: Vec<_> = (0..count).map(|index| index * rays.len() / count).collect();
+        let chosen: Vec<_> = pixels.iter().map(|&pixel| rays[pixel]).collect();
+        let truths = pixels.into_iter().zip(oracle.first_hits(&chosen)).collect();
+        Ok(Self { view, targets, truths, mean_radius: mean_radius(scene) })
+    }
+
+    /// How far off the contender's last picture is, which is to be of this view.
+    pub fn errors(&self, contender: &Contender) -> Errors {
+        let pairs = self.truths.iter().map(|(pixel, truth)| (truth, &contender.hits[*pixel]));
+        Errors::of(pairs, self.mean_radius)
+    }
+}
+
+/// The mean support radius.
+pub fn mean_radius(scene: &Scene) -> f64 {
+    let sum: f64 = scene.supports().iter().map(|ball| f64::from(ball.radius)).sum();
+    sum / scene.len().max(1) as f64
+}
