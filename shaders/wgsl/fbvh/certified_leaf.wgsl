@@ -12,7 +12,7 @@
 #import metaball::fbvh::structure::{leaves, lists, Leaf}
 #import metaball::fbvh::suspend::{can_go_on, spent}
 #import metaball::hit::{HIT, INSIDE, UNDECIDED}
-#import metaball::kernel::{kernel, kernel_slope}
+#import metaball::kernel::{greatest_bend, kernel, kernel_slope}
 #import metaball::ray::{any_will_do, Ray}
 #import metaball::scene::scene
 #import metaball::strength::strength
@@ -30,6 +30,8 @@ const FOUND: u32 = 1u;
 const WAITING: u32 = 2u;
 // Nothing, but the excess came so close to 0 at the leaf's far side that only a hit beyond can tell.
 const DOUBTED: u32 = 3u;
+// One root is between the ends of a bracket: `close_in` finds it.
+const BRACKETED: u32 = 4u;
 
 // Stages of a search: on the way through the leaf, or between the ends of a bracket.
 const ENTER: u32 = 0u;
@@ -37,7 +39,8 @@ const NARROW: u32 = 1u;
 const SOLVE: u32 = 2u;
 
 // The search as it stands, in the leaf's local t: nothing before `low` reaches 0, the interval looked
-// at is from `low_value` to `high`. A hit leaves its global t in `high`.
+// at is from `low_value` to `high`; between the ends of a bracket, `high_value` is where the root is
+// next looked for. A hit leaves its global t in `high`.
 struct Search {
     stage: u32,
     next: u32,
@@ -59,11 +62,13 @@ fn status_found() -> u32 {
 // An interval of this part of the smallest radius in it is short: a root in it is known well enough.
 const SHORT: f32 = 0x1p-20f;
 
-// The excess at a local t, and its slope: best values, no bounds.
-fn excess_and_slope(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: f32) -> vec2<f32> {
+// The excess at a local t, its slope, and what the slope's slope is nowhere more than: best values, no
+// bounds.
+fn excess_and_slopes(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: f32) -> vec3<f32> {
     count_evaluations(end - first);
     spent += end - first;
     var sum = vec2(-scene.threshold, 0.0);
+    var bend = 0.0;
     for (var entry = first; entry < end; entry++) {
         let ball = lists[entry];
         let support = support_of(ball);
@@ -73,9 +78,26 @@ fn excess_and_slope(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t:
         let along = t - middle;
         let square = support.radius * support.radius;
         let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
-        sum += strength(ball) * vec2(kernel(v), -2.0 * along / square * kernel_slope(v));
+        let share = strength(ball) / square;
+        sum += vec2(strength(ball) * kernel(v), -2.0 * along * share * kernel_slope(v));
+        bend += share;
     }
-    return SIGN * sum;
+    return vec3(SIGN * sum, bend * greatest_bend());
+}
+
+// Where the cubic with these values and slopes at the ends of an interval reaches 0, as a part of it.
+fn cubic_root(start: vec2<f32>, end: vec2<f32>, width: f32) -> f32 {
+    let rise = end.x - start.x;
+    let first = width * start.y;
+    let second = 3.0 * rise - width * (2.0 * start.y + end.y);
+    let third = width * (start.y + end.y) - 2.0 * rise;
+    var x = clamp(-start.x / max(rise, 1e-37), 0.0, 1.0);
+    for (var step = 0u; step < 3u; step++) {
+        let value = start.x + x * (first + x * (second + x * third));
+        let slope = first + x * (2.0 * second + x * 3.0 * third);
+        x = clamp(x - value / select(slope, 1e37, slope <= 0.0), 0.0, 1.0);
+    }
+    return x;
 }
 
 // Goes on with the search of a leaf. FOUND leaves the hit's distance in `search.high`.
@@ -124,18 +146,15 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         let width = search.high - probe;
         let bounds = bounds_on(frame, ray.direction, first, end, probe, search.high);
         let rises = bounds.least_slope > 0.0;
-        var is_below = bounds.most < 0.0;
-        if !is_below && rises && bounds.end_least <= 0.0 {
-            // What rises is greatest at its end.
-            let last = bounds_on(frame, ray.direction, first, end, search.high, search.high);
-            is_below = last.most < 0.0;
-        }
+        // What rises is greatest at its end.
+        let is_below = bounds.most < 0.0 || (rises && bounds.end_most < 0.0);
         let is_short = width <= SHORT * bounds.radius;
         if any_will_do() && bounds.end_least > 0.0 {
             return found_at(max(at(frame, search.high), 0.0), HIT);
         }
         if bounds.end_least > 0.0 && (rises || is_short) {
             search.stage = SOLVE;
+            search.high_value = probe + width * cubic_root(bounds.start, bounds.end, width);
         } else if is_below || rises {
             // All below 0; or rising so close to 0 that the next interval must tell.
             if search.high >= frame.leave {
@@ -154,26 +173,47 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         }
     }
 
+    return BRACKETED;
+}
+
+// Whether a root is still to be closed in on.
+fn is_bracketed() -> bool {
+    return search.stage == SOLVE;
+}
+
+// Closes in on the root in a bracket. Apart from the search, so that rays side by side, which come to
+// their hits in different leaves, do it at the same time.
+fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
+    let leaf = leaves[index];
+    let first = leaf.first;
+    let end = leaves[index + 1u].first;
+    let frame = local_frame(ray, inverse, leaf.min, leaf.max);
     // One root between the ends, or too short a way between them to matter: Newton's steps, kept
-    // between the ends (Press et al., rtsafe).
-    var t = 0.5 * (search.low + search.high);
+    // between the ends (Press et al., rtsafe). Where the slope is f', a step leaves at most
+    // step^2 bend / 2 f': once that is less than the ray's own points are known to, none follows.
+    var t = search.high_value;
+    let known = UNIT * max(abs(frame.enter), abs(frame.leave));
     for (var step = 0u; step < 48u; step++) {
         if !can_go_on() {
             return WAITING;
         }
         count_iterations(1u);
-        let value = excess_and_slope(frame, ray.direction, first, end, t);
+        let value = excess_and_slopes(frame, ray.direction, first, end, t);
         if value.x >= 0.0 {
             search.high = t;
         } else {
             search.low = t;
         }
-        var next = t - value.x / select(value.y, 1.0, value.y == 0.0);
+        let way = -value.x / select(value.y, 1.0, value.y == 0.0);
+        var next = t + way;
+        var is_last = way * (way * value.z) <= known * value.y;
         if next <= search.low || next >= search.high {
             next = 0.5 * (search.low + search.high);
+            is_last = false;
         }
-        let is_last = abs(next - t) <= 4.0 * UNIT * max(abs(t), abs(next));
+        is_last = is_last || abs(next - t) <= 4.0 * UNIT * max(abs(t), abs(next));
         t = next;
+        search.high_value = t;
         if is_last || next <= search.low || next >= search.high {
             break;
         }
@@ -182,6 +222,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
 }
 
 fn found_at(t: f32, status: u32) -> u32 {
+    search.stage = ENTER;
     search.high = t;
     found = status;
     return FOUND;
@@ -189,7 +230,8 @@ fn found_at(t: f32, status: u32) -> u32 {
 
 // What rounding and an early end can leave of F - T at a hit, and by how much rounding can move a ball's
 // v there: `certified.rs` for a stretch as long as the leaf's diagonal, from a point beside the leaf that
-// t stretches by 2^-10 of a float.
+// t stretches by 2^-10 of a float. Of the 24 diagonals, 17 are the search's own margin, and 2 are where
+// the last of Newton's steps may end.
 fn residual() -> f32 {
     return 0.0;
 }

@@ -24,8 +24,12 @@ struct Bounds {
     most: f32,
     // The slope is nowhere less, 1/scene unit.
     least_slope: f32,
-    // At the end: certainly at least this.
+    // At the end: certainly at least and at most this.
     end_least: f32,
+    end_most: f32,
+    // Excess and slope at either end: best values, no bounds.
+    start: vec2<f32>,
+    end: vec2<f32>,
     // Least radius among the balls that reach the interval.
     radius: f32,
 }
@@ -37,6 +41,9 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
     var least = 0.0;
     var most_slope = 0.0;
     var end_most = 0.0;
+    var end_least = 0.0;
+    var start = vec2(0.0);
+    var stop = vec2(0.0);
     var radius = 1e38;
     for (var entry = first; entry < end; entry++) {
         let ball = lists[entry];
@@ -53,6 +60,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
         let s_start = (off_square + to_start * to_start) * inverse_square;
         let misplaced = misplacement(frame, offset);
         let margin = depth_margin(min(max(s_start, s_end), 1.0), misplaced, inverse_radius);
+        let end_margin = depth_margin(min(s_end, 1.0), misplaced, inverse_radius);
 
         let near = clamp(middle, low, high) - middle;
         let v_most = 1.0 - (off_square + near * near) * inverse_square + margin;
@@ -64,7 +72,8 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
         let v_least = min(v_start, v_end) - margin;
         let q = strength(ball);
         least += q * kernel(v_least);
-        end_most += q * kernel(v_end + margin);
+        end_most += q * kernel(v_end + end_margin);
+        end_least += q * kernel(v_end - end_margin);
         // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: of one sign on either side of the
         // projection, and bounded there by the product of what bounds its factors.
         var slope = 0.0;
@@ -74,13 +83,18 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32,
         } else {
             slope = steepest_slope(v_least, v_most) * (misplaced - to_start) * (1.0 + 16.0 * UNIT);
         }
-        most_slope += 2.0 * q * inverse_square * slope;
+        let steep = 2.0 * q * inverse_square;
+        most_slope += steep * slope;
+        start += vec2(q * kernel(v_start), -steep * to_start * kernel_slope(v_start));
+        stop += vec2(q * kernel(v_end), -steep * to_end * kernel_slope(v_end));
         radius = min(radius, support.radius);
     }
     // The sum of n terms of one sign, each of a few products, errs by less than this part of it.
     let summing = f32(end - first + 16u) * UNIT;
     let threshold = scene.threshold;
     return Bounds(
-        threshold - least * (1.0 - summing), -most_slope, threshold - end_most * (1.0 + summing), radius,
+        threshold - least * (1.0 - summing), -most_slope,
+        threshold - end_most * (1.0 + summing), threshold - end_least * (1.0 - summing),
+        vec2(threshold, 0.0) - start, vec2(threshold, 0.0) - stop, radius,
     );
 }

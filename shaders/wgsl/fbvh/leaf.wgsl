@@ -37,8 +37,17 @@ fn status_found() -> u32 {
 const MISSED: u32 = 0u;
 const FOUND: u32 = 1u;
 const WAITING: u32 = 2u;
-// Certified searches alone have doubts.
+// Certified searches alone have doubts, and leave closing in on a root for later.
 const DOUBTED: u32 = 3u;
+const BRACKETED: u32 = 4u;
+
+fn is_bracketed() -> bool {
+    return false;
+}
+
+fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
+    return FOUND;
+}
 
 // Stages of a search.
 const ENTER: u32 = 0u;

@@ -21,7 +21,8 @@
 // Depth is bounded when a tree is built: MAX_DEPTH of crates/fbvh/src/node.rs.
 const MAX_DEPTH: u32 = 64u;
 
-// Subtrees still to be visited, and where the ray enters them.
+// Subtrees still to be visited; and where the ray enters them, unless the first hit ends it: until then
+// nothing is nearer.
 var<private> stack: array<u32, MAX_DEPTH>;
 var<private> enters: array<f32, MAX_DEPTH>;
 var<private> depth: u32;
@@ -34,7 +35,9 @@ var<private> best_status: u32;
 
 fn push(place: u32, enter: f32) {
     stack[depth] = place;
-    enters[depth] = enter;
+    if !leaf::first_hit_ends() {
+        enters[depth] = enter;
+    }
     depth++;
 }
 
@@ -43,7 +46,7 @@ fn pop() -> u32 {
     while depth > 0u {
         depth--;
         suspend::spent++;
-        if enters[depth] < best_t {
+        if leaf::first_hit_ends() || enters[depth] < best_t {
             return stack[depth];
         }
     }
@@ -74,31 +77,12 @@ fn descend(place: u32, ray: Ray, inverse: vec3<f32>) {
 fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
     var place = start;
     while place != structure::EMPTY {
-        if !suspend::can_go_on() {
-            return place;
-        }
-        suspend::spent++;
-        if (place & structure::LEAF) != 0u {
-            let index = place & ~structure::LEAF;
-            let outcome = leaf::search_leaf(ray, inverse, index);
-            if outcome == leaf::WAITING {
+        // To the next leaf: rays side by side come to theirs before any of them searches it.
+        while (place & structure::LEAF) == 0u {
+            if !suspend::can_go_on() {
                 return place;
             }
-            // Where any hit will do, it may have been seen at the very end of the ray.
-            if outcome == leaf::FOUND && (leaf::search.high < best_t || any_will_do()) {
-                best_t = min(leaf::search.high, best_t);
-                best_leaf = index;
-                best_status = leaf::status_found();
-                if leaf::first_hit_ends() || any_will_do() {
-                    return structure::EMPTY;
-                }
-            }
-            if outcome == leaf::DOUBTED {
-                best_status = hit::UNDECIDED;
-            }
-            leaf::search.stage = leaf::ENTER;
-            place = pop();
-        } else {
+            suspend::spent++;
             count_node();
             let node = structure::nodes[place];
             let children = children_of(node, ray, inverse);
@@ -110,6 +94,49 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
                 place = pop();
             }
         }
+        if place == structure::EMPTY || !suspend::can_go_on() {
+            break;
+        }
+        suspend::spent++;
+        let index = place & ~structure::LEAF;
+        let outcome = leaf::search_leaf(ray, inverse, index);
+        if outcome == leaf::WAITING {
+            return place;
+        }
+        if outcome == leaf::BRACKETED {
+            best_leaf = index;
+            return structure::EMPTY;
+        }
+        // Where any hit will do, it may have been seen at the very end of the ray.
+        if outcome == leaf::FOUND && (leaf::search.high < best_t || any_will_do()) {
+            best_t = min(leaf::search.high, best_t);
+            best_leaf = index;
+            best_status = leaf::status_found();
+            if leaf::first_hit_ends() || any_will_do() {
+                return structure::EMPTY;
+            }
+        }
+        if outcome == leaf::DOUBTED {
+            best_status = hit::UNDECIDED;
+        }
+        leaf::search.stage = leaf::ENTER;
+        place = pop();
+    }
+    return place;
+}
+
+// Follows the ray from `start` to its answer. Returns the place to wait at, EMPTY when it is finished.
+fn follow(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
+    let place = traverse(start, ray, inverse);
+    if place != structure::EMPTY || !leaf::is_bracketed() {
+        return place;
+    }
+    if leaf::close_in(ray, inverse, best_leaf) == leaf::WAITING {
+        return structure::LEAF | best_leaf;
+    }
+    if leaf::search.high < best_t {
+        best_t = leaf::search.high;
+        best_status = leaf::status_found();
     }
     return structure::EMPTY;
 }
@@ -169,12 +196,23 @@ fn clearance(ray: Ray, doubt: f32, steepness: f32, smallest: f32) -> f32 {
     return 4.0 * doubt / max(flattest, 1e-37) + 4.0 * rounding;
 }
 
+// Where an invocation stands in its workgroup: eight in turn are a block of 4 by 2 pixels, which runs
+// apart less than a row of eight.
+fn in_blocks(index: u32) -> vec2<u32> {
+    let block = index / 8u;
+    return vec2(4u * (block % 2u) + index % 4u, 2u * (block / 2u) + index / 4u % 2u);
+}
+
 @compute @workgroup_size(8, 8)
-fn trace(@builtin(global_invocation_id) id: vec3<u32>) {
-    if !in_picture(id.xy) {
+fn trace(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_index) index: u32,
+) {
+    let at = 8u * group.xy + in_blocks(index);
+    if !in_picture(at) {
         return;
     }
-    let pixel = pixel_at(id.xy);
+    let pixel = pixel_at(at);
     if !has_ray(pixel) {
         return;
     }
@@ -183,7 +221,7 @@ fn trace(@builtin(global_invocation_id) id: vec3<u32>) {
     best_t = ray.t_max;
     best_status = hit::MISS;
 
-    let place = traverse(root, ray, inverse);
+    let place = follow(root, ray, inverse);
     write_work(pixel);
     if place == structure::EMPTY {
         write(pixel, ray);
@@ -212,7 +250,7 @@ fn resume(@builtin(global_invocation_id) id: vec3<u32>) {
     );
 
     descend(state.place, ray, inverse);
-    let place = traverse(state.place, ray, inverse);
+    let place = follow(state.place, ray, inverse);
     write_work(state.pixel);
     if place == structure::EMPTY {
         write(state.pixel, ray);
