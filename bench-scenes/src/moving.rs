@@ -245,10 +245,10 @@ fn of_name(name: &str) -> Result<Moving, LoadError> {
             let splash = Moving::packed("splash.frames", include_bytes!("../data/splash.frames"))?;
             // The tank seen from its front, with room for what climbs its right wall.
             let camera = Camera::look_at(
-                Vec3::new(1.8, 1.4, 3.0),
-                Vec3::new(0.82, 0.46, 0.45),
+                Vec3::new(2.0, 1.5, 3.4),
+                Vec3::new(0.86, 0.62, 0.45),
                 Vec3::Y,
-                36.0,
+                38.0,
             )?;
             Ok(Moving { camera, ..splash })
         }

@@ -92,6 +92,7 @@ pub const MODULES: &[Module] = &[
     import!("light/sampling"),
     import!("light/sky"),
     import!("light/image"),
+    import!("light/floor"),
     import!("light/scatter"),
     entry!("light/start"),
     entry!("light/surface"),

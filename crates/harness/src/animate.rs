@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use anyhow::{bail, ensure};
 use bench_scenes::{Moving, NumberedPath};
-use metaball_core::{Aabb, View};
+use metaball_core::View;
 
 use crate::animate::pipeline::{Job, Outcome};
 use crate::animate::report::Report;
@@ -53,15 +53,17 @@ pub fn animate(order: &Order) -> anyhow::Result<()> {
     let moving = Moving::load(&drawing.scene, &drawing.overrides)?;
     let numbers = numbers(order, &moving)?;
     let (width, height) = drawing.size;
-    let view = View::new(moving.camera, width, height)?;
+    // The same for all frames, whichever of them are drawn: where and how large the scene is, its first
+    // one says.
+    let (mut camera, mut lighting) = (moving.camera, None);
+    if drawing.camera.is_asked() || drawing.light.is_asked() {
+        let first = moving.frame(moving.frames.start)?;
+        camera = drawing.camera.camera(&camera, first.bounds().center())?;
+        let is_lit = drawing.light.is_asked();
+        lighting = is_lit.then(|| drawing.light.lighting(&camera, &first)).transpose()?;
+    }
+    let view = View::new(camera, width, height)?;
     let gpu = open(&drawing.device)?;
-    // The same for all frames, whichever of them are drawn: how large the scene is, its first one says.
-    let bounds = if drawing.light.is_asked() {
-        moving.frame(moving.frames.start)?.bounds()
-    } else {
-        Aabb::EMPTY
-    };
-    let lighting = drawing.light.lighting(&moving.camera, &bounds)?;
     let job = Job {
         drawing,
         moving: &moving,
@@ -139,6 +141,7 @@ mod tests {
     use metaball_core::gpu::{AdapterChoice, Gpu, Picture};
 
     use super::*;
+    use crate::camera::CameraOptions;
     use crate::light::LightOptions;
     use crate::light::tests::options;
     use crate::methods::find;
@@ -151,6 +154,7 @@ mod tests {
             overrides: Overrides::default(),
             method: find("fbvh-certified").expect("listed"),
             size: (32, 24),
+            camera: CameraOptions::default(),
             picture: Picture::Phong,
             light: LightOptions::default(),
             device,

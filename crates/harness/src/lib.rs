@@ -5,12 +5,13 @@
 //! that the shaders used ([`mod@reference`]), and yields a [`record`] for each. [`score`] holds the one
 //! set of definitions of what is wrong, [`measure`] those of what is fast, [`judge`] what each method
 //! promises and is held to. [`mod@compare`], [`mod@render`], [`mod@animate`] and [`mod@stability`] are the
-//! commands; [`light`] has the effects of `render` and `animate`, [`auto`] chooses who draws. [`tables`]
-//! holds the tables of papers.
+//! commands; [`camera`] and [`light`] have options of `render` and `animate`, [`auto`] chooses who draws.
+//! [`tables`] holds the tables of papers.
 //! [`cpu`] and [`shade`] draw where there is no adapter.
 
 pub mod animate;
 pub mod auto;
+pub mod camera;
 pub mod chart;
 pub mod compare;
 pub mod conclusions;

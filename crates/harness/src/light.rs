@@ -5,15 +5,20 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, bail, ensure};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use exr::prelude::{SpecificChannels, WritableImage};
+use fbvh::Kind;
 use glam::Vec3;
 use image::{DynamicImage, ImageReader};
 use metaball_core::gpu::{Gpu, Image, IsoRenderer};
-use metaball_core::{Aabb, Camera, Hit, NO_LIMIT, Scene, View};
-use metaball_light::{Effects, Environment, Film, Lamp, Occlusion, Panorama, Studio, Surface};
+use metaball_core::{Camera, Hit, NO_LIMIT, Scene, View};
+use metaball_light::{
+    Effects, Environment, Film, Floor, Lamp, Occlusion, Panorama, Studio, Surface,
+};
 
+use crate::camera::vector;
 use crate::measure::milliseconds;
+use crate::methods::tree_options;
 use crate::numbers::decimal;
 use crate::output::write_atomically;
 
@@ -23,9 +28,21 @@ const FLUID_BOUNCES: u32 = 8;
 /// Standard deviation of the depth cue's Gaussian, in parts of the picture's height.
 const DEPTH_CUE_WIDTH: f32 = 0.02;
 
+/// How far a floor goes, in the scene's radius.
+const FLOOR_REACH: f32 = 3.0;
+
+/// Its colour, linear.
+const FLOOR_COLOR: Vec3 = Vec3::new(0.55, 0.55, 0.54);
+
+/// Tiles of a floor along the scene's radius.
+const TILES_PER_RADIUS: f32 = 5.0;
+
 /// Options of light. Any of them asks for ray traced light in place of the shared Phong picture.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
-#[command(next_help_heading = "Light (methods that follow any ray: bvh, fbvh, fbvh-certified)")]
+#[command(
+    next_help_heading = "Light (shadows, occlusion, mirrored surfaces and refraction need a \
+                              method that follows any ray: bvh, fbvh, fbvh-certified)"
+)]
 pub struct LightOptions {
     /// Lamps cast shadows.
     #[arg(long)]
@@ -43,7 +60,7 @@ pub struct LightOptions {
     /// Where occlusion rays end, scene units; they feel the whole scene when left out.
     #[arg(long, value_name = "LENGTH", requires = "ambient_occlusion")]
     occlusion_reach: Option<f32>,
-    /// Levels of mirror reflection.
+    /// Levels of mirror reflection; 0 mirrors the surroundings alone.
     #[arg(long, value_name = "LEVELS", conflicts_with = "refraction")]
     reflections: Option<u32>,
     /// Share of light mirrored at normal incidence, 0 to 1; 0.3 when left out.
@@ -60,6 +77,9 @@ pub struct LightOptions {
     /// Surfaces seen through each other in the fluid; 8 when left out.
     #[arg(long, value_name = "N", requires = "refraction")]
     bounces: Option<u32>,
+    /// What the scene stands on, below its lowest ball.
+    #[arg(long, value_name = "KIND", value_enum)]
+    floor: Option<FloorKind>,
     /// The surroundings: an equirectangular .hdr or .exr image. A generated sky when left out.
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
@@ -80,13 +100,13 @@ pub struct LightOptions {
     exposure: Option<f32>,
 }
 
-/// Three numbers with commas between.
-fn vector(text: &str) -> Result<Vec3, String> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.as_deref() {
-        Ok(&[x, y, z]) if Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
-        _ => Err("needed three numbers such as 0.5,1,-0.3".to_owned()),
-    }
+/// What a scene stands on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FloorKind {
+    /// Of one colour.
+    Plain,
+    /// Tiles in two shades.
+    Tiles,
 }
 
 /// Light for any number of pictures by one camera: what its options ask for, checked and read.
@@ -118,25 +138,32 @@ impl LightOptions {
         *self != Self::default()
     }
 
-    /// The light for a camera's pictures of what fills these bounds; `None` where none is asked for.
+    /// Whether the method answers all that the effects ask.
+    pub fn is_given_by(&self, method: &str) -> bool {
+        let follows = self.shadows
+            || self.ambient_occlusion.is_some()
+            || self.refraction.is_some()
+            || self.reflections.is_some_and(|levels| levels > 0);
+        let tree = tree_options(method).map(|options| options.kind());
+        !follows || tree.is_some_and(|kind| self.refraction.is_none() || kind == Kind::Certified)
+    }
+
+    /// The light for a camera's pictures of a scene, or of one that moves and begins like this.
     ///
     /// # Errors
     /// When an option makes no sense or a file is not readable: names it.
-    pub fn lighting(&self, camera: &Camera, bounds: &Aabb) -> anyhow::Result<Option<Lighting>> {
-        if !self.is_asked() {
-            return Ok(None);
-        }
+    pub fn lighting(&self, camera: &Camera, scene: &Scene) -> anyhow::Result<Lighting> {
         let fallback = if self.refraction.is_some() { 64 } else { 1 };
-        Ok(Some(Lighting {
-            effects: self.effects(camera, bounds)?,
+        Ok(Lighting {
+            effects: self.effects(camera, scene)?,
             samples: self.samples.unwrap_or(fallback),
             seed: self.seed.unwrap_or_default(),
             depth_cue: self.depth_cue,
             stops: self.exposure.unwrap_or_default(),
-        }))
+        })
     }
 
-    fn effects(&self, camera: &Camera, bounds: &Aabb) -> anyhow::Result<Effects> {
+    fn effects(&self, camera: &Camera, scene: &Scene) -> anyhow::Result<Effects> {
         let base = Effects::phong(camera);
         let diameter = at_least(0.0, "--lamp-size", self.lamp_size.unwrap_or_default())?;
         let lamps = if self.lamp.is_empty() {
@@ -148,7 +175,7 @@ impl LightOptions {
         };
         let reach = at_least(0.0, "--occlusion-reach", self.occlusion_reach.unwrap_or(NO_LIMIT))?;
         Ok(Effects {
-            surface: self.surface(bounds)?,
+            surface: self.surface(radius_of(scene))?,
             lamps,
             shadows: self.shadows,
             occlusion: self.ambient_occlusion.map(|rays| Occlusion { rays, reach }),
@@ -156,6 +183,7 @@ impl LightOptions {
                 Some(_) => self.bounces.unwrap_or(FLUID_BOUNCES),
                 None => self.reflections.unwrap_or_default(),
             },
+            floor: self.floor.map(|kind| floor(kind, scene)),
             environment: match &self.environment {
                 Some(path) => Environment::Panorama(read_panorama(path)?),
                 None => Environment::Sky,
@@ -164,11 +192,10 @@ impl LightOptions {
         })
     }
 
-    fn surface(&self, bounds: &Aabb) -> anyhow::Result<Surface> {
+    fn surface(&self, radius: f32) -> anyhow::Result<Surface> {
         if let Some(refraction) = self.refraction {
             ensure!(refraction > 0.0, "--refraction: needed an index above 0, found {refraction}");
-            let radius = 0.5 * bounds.extent().length();
-            let watery = Vec3::new(0.9, 0.28, 0.12) / radius.max(f32::MIN_POSITIVE);
+            let watery = Vec3::new(0.9, 0.28, 0.12) / radius;
             let absorption = self.absorption.unwrap_or(watery);
             ensure!(
                 absorption.min_element() >= 0.0,
@@ -186,6 +213,33 @@ impl LightOptions {
         );
         Ok(Surface::Opaque { reflectivity })
     }
+}
+
+/// A floor that a scene stands on: so large that its edge is nowhere in the scene's way.
+fn floor(kind: FloorKind, scene: &Scene) -> Floor {
+    let lowest = scene.balls().filter_map(|ball| {
+        let core = scene.kernel().core_radius(&ball, scene.threshold())? as f32;
+        Some(ball.center.y - core)
+    });
+    let bounds = scene.bounds();
+    let lowest = lowest.reduce(f32::min).unwrap_or(bounds.min.y);
+    let radius = radius_of(scene);
+    Floor {
+        middle: bounds.center().with_y(lowest),
+        reach: FLOOR_REACH * radius,
+        color: FLOOR_COLOR,
+        tile: match kind {
+            FloorKind::Plain => 0.0,
+            FloorKind::Tiles => radius / TILES_PER_RADIUS,
+        },
+    }
+}
+
+/// Half of the diagonal of the scene's bounds, above 0.
+fn radius_of(scene: &Scene) -> f32 {
+    let bounds = scene.bounds();
+    let diagonal = if bounds.is_empty() { 2.0 } else { bounds.extent().length() };
+    (0.5 * diagonal).max(f32::MIN_POSITIVE)
 }
 
 impl Lighting {
@@ -291,16 +345,22 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn vectors_are_three_numbers() {
-        assert_eq!(vector("1,-2, 0.5"), Ok(Vec3::new(1.0, -2.0, 0.5)));
-        assert!(vector("1,2").is_err() && vector("1,2,nan").is_err() && vector("a,b,c").is_err());
+    fn raster_methods_give_what_ends_at_the_first_surface() {
+        for line in ["--cel 4", "--reflections 0", "--depth-cue 1 --samples 4 --floor plain"] {
+            assert!(options(line).is_given_by("illes") && options(line).is_given_by("fbvh"));
+        }
+        for line in ["--shadows", "--ambient-occlusion 4", "--reflections 1"] {
+            assert!(!options(line).is_given_by("illes") && options(line).is_given_by("fbvh"));
+        }
+        let fluid = options("--refraction 1.33");
+        assert!(!fluid.is_given_by("fbvh") && fluid.is_given_by("fbvh-certified"));
     }
 
     #[test]
     fn nonsense_is_named() {
         let bench = load("two-merging", &Overrides::default()).expect("known");
         let message = |options: LightOptions| {
-            let lighting = options.lighting(&bench.camera, &bench.scene.bounds());
+            let lighting = options.lighting(&bench.camera, &bench.scene);
             lighting.err().expect("refused").to_string()
         };
         let refraction = LightOptions { refraction: Some(0.0), ..Default::default() };

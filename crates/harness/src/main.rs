@@ -12,6 +12,7 @@ use clap::{Args, Parser, Subcommand};
 use harness::animate::{self, animate};
 use harness::auto::MAX_ERROR;
 use harness::auto::cache::Cache;
+use harness::camera::CameraOptions;
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
 use harness::contest::Rules;
 use harness::light::LightOptions;
@@ -22,7 +23,7 @@ use harness::render::{Choosing, Device, Drawing, Order, render};
 use harness::settings::Setting;
 use harness::settings::variants::entrants;
 use harness::stability::{self, stability};
-use harness::tables::{self, gourmel, illes, kanamori, peers};
+use harness::tables::{self, gourmel, gourmel_light, illes, kanamori, peers};
 use harness::{chart, console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
@@ -176,6 +177,21 @@ enum Paper {
         #[command(flatten)]
         device: AdapterArgs,
     },
+    /// Gourmel et al. 2010: table 2, what shadows and reflections cost, and table 1 under each scene's own
+    /// effects.
+    GourmelLight {
+        /// Small scenes, small pictures: seconds, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Pixels across and down; 640x480 when left out, 160x120 on a software adapter.
+        #[arg(long, value_name = "WxH")]
+        size: Option<Size>,
+        /// Folder for gourmel-light.html and gourmel-light.json.
+        #[arg(long, value_name = "DIR", default_value = "out/tables")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
+    },
     /// Kanamori et al. 2008: table 1 against the CPU, the optimisations of section 5, time against
     /// error, figure 8 and the scenes of section 6.
     Kanamori {
@@ -258,6 +274,8 @@ struct DrawingArgs {
     #[arg(long, conflicts_with_all = ["adapter", "software"])]
     cpu: bool,
     #[command(flatten)]
+    camera: CameraOptions,
+    #[command(flatten)]
     light: LightOptions,
     #[command(flatten)]
     common: Common,
@@ -266,12 +284,12 @@ struct DrawingArgs {
 impl DrawingArgs {
     /// With the default method where another is chosen in its place.
     fn drawing(self) -> anyhow::Result<Drawing> {
-        let Self { scene, method, picture, cpu, light, common } = self;
+        let Self { scene, method, picture, cpu, camera, light, common } = self;
         let name = method.as_deref().filter(|&name| name != AUTO).unwrap_or(DEFAULT_METHOD);
         let method = find(name).with_context(|| format!("no method is called {name}"))?;
         let (overrides, size) = (common.overrides(), common.size());
         let device = if cpu { Device::Cpu } else { Device::Adapter(common.adapter()) };
-        Ok(Drawing { scene, overrides, method, size, picture, light, device })
+        Ok(Drawing { scene, overrides, method, size, camera, picture, light, device })
     }
 }
 
@@ -472,6 +490,13 @@ fn run(command: Command) -> anyhow::Result<()> {
                 if quick { gourmel::plan::Extent::Quick } else { gourmel::plan::Extent::Whole };
             let size = size.map(|Size(width, height)| (width, height));
             gourmel::tables(&gourmel::Order { extent, size, adapter: device.choice(), out })
+        }
+        Command::Tables { paper: Paper::GourmelLight { quick, size, out, device } } => {
+            let extent =
+                if quick { gourmel::plan::Extent::Quick } else { gourmel::plan::Extent::Whole };
+            let size = size.map(|Size(width, height)| (width, height));
+            let adapter = device.choice();
+            gourmel_light::tables(&gourmel_light::Order { extent, size, adapter, out })
         }
         Command::Tables { paper: Paper::Kanamori { quick, full, out, device } } => {
             let extent = match (quick, full) {

@@ -12,11 +12,12 @@ use metaball_core::{Hit, Scene, View};
 
 use crate::auto::Auto;
 use crate::auto::cache::Cache;
+use crate::camera::CameraOptions;
 use crate::console::Progress;
 use crate::hits_exr::write_hits;
 use crate::light::{self, LightOptions, Lit, write_light};
 use crate::measure::milliseconds;
-use crate::methods::{Method, tree_options};
+use crate::methods::Method;
 use crate::numbers::{decimal, grouped};
 use crate::output::write_atomically;
 use crate::picture::encode_png;
@@ -59,6 +60,8 @@ pub struct Drawing {
     pub method: &'static Method,
     /// Pixels across and down.
     pub size: (u32, u32),
+    /// Where it is seen from.
+    pub camera: CameraOptions,
     /// What the picture shows.
     pub picture: Picture,
     /// Effects, in the place of the shared Phong picture.
@@ -98,7 +101,8 @@ pub fn render(order: &Order) -> anyhow::Result<()> {
     let drawing = &order.drawing;
     let BenchScene { name, scene, camera, .. } = &load(&drawing.scene, &drawing.overrides)?;
     let (width, height) = drawing.size;
-    let view = View::new(*camera, width, height)?;
+    let camera = drawing.camera.camera(camera, scene.bounds().center())?;
+    let view = View::new(camera, width, height)?;
     let drawn = match open(&drawing.device)? {
         Some(gpu) => on_adapter(&gpu, order, scene, &view)?,
         None if order.auto.is_some() => {
@@ -166,14 +170,14 @@ fn on_adapter(gpu: &Gpu, order: &Order, scene: &Scene, view: &View) -> anyhow::R
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let hits = targets.read_hits(gpu)?;
-    let (shaded, lit) = match drawing.light.lighting(view.camera(), &scene.bounds())? {
-        Some(lighting) => {
-            let progress = Progress::new(lighting.samples().into());
-            let after = || progress.advance(1);
-            let lit = lighting.expose(gpu, renderer.as_mut(), scene, view, &hits, after)?;
-            (Shaded { image: lit.image.clone(), range: None }, Some(lit))
-        }
-        None => (Shading::new(gpu).draw(&targets, view, scene, drawing.picture)?, None),
+    let (shaded, lit) = if drawing.light.is_asked() {
+        let lighting = drawing.light.lighting(view.camera(), scene)?;
+        let progress = Progress::new(lighting.samples().into());
+        let after = || progress.advance(1);
+        let lit = lighting.expose(gpu, renderer.as_mut(), scene, view, &hits, after)?;
+        (Shaded { image: lit.image.clone(), range: None }, Some(lit))
+    } else {
+        (Shading::new(gpu).draw(&targets, view, scene, drawing.picture)?, None)
     };
     Ok(Drawn {
         account,
@@ -202,9 +206,7 @@ fn built(gpu: &Gpu, order: &Order, scene: &Scene, view: &View) -> anyhow::Result
     };
     console::note("auto: drawing with every candidate, and asking the oracle");
     let mut candidates = candidates();
-    if drawing.light.is_asked() {
-        candidates.retain(|setting| tree_options(setting.method.name).is_some());
-    }
+    candidates.retain(|setting| drawing.light.is_given_by(setting.method.name));
     let counting = drawing.counts();
     let mut auto = Auto::new(candidates, view.clone(), *max_error, cache.clone(), counting);
     let build = auto.build(gpu, scene)?;
@@ -275,6 +277,7 @@ mod tests {
             overrides: Overrides::default(),
             method: find("fbvh").expect("listed"),
             size: (16, 12),
+            camera: CameraOptions::default(),
             picture: Picture::Phong,
             light: LightOptions::default(),
             device: Device::Cpu,

@@ -3,6 +3,7 @@
 
 pub mod auto;
 pub mod gourmel;
+pub mod gourmel_light;
 pub mod illes;
 pub mod kanamori;
 pub mod peers;

@@ -138,6 +138,19 @@ impl Camera {
         self.half_height
     }
 
+    /// The same camera turned about its eye, so that it looks where (right, up) was in its picture, in units
+    /// of the picture that lies at unit distance.
+    #[must_use]
+    pub fn turned(&self, right: f32, up: f32) -> Self {
+        let [x, y, z] = [self.right, self.up, self.forward].map(Vec3::as_dvec3);
+        let forward = (z + f64::from(right) * x + f64::from(up) * y).normalize();
+        // Not along `up`, since `forward` was across it.
+        let right = forward.cross(y).normalize();
+        let up = right.cross(forward);
+        let (right, up, forward) = (right.as_vec3(), up.as_vec3(), forward.as_vec3());
+        Self { right, up, forward, ..*self }
+    }
+
     /// The same camera moved sideways and upwards by so many scene units, looking the same way.
     #[must_use]
     pub fn shifted(&self, right: f32, up: f32) -> Self {
@@ -268,6 +281,16 @@ mod tests {
 
     fn camera() -> Camera {
         Camera::look_at(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 90.0).expect("legal")
+    }
+
+    #[test]
+    fn a_turned_camera_looks_where_it_was_told() {
+        let camera = camera().turned(0.3, -0.2);
+        let wanted = Vec3::new(0.3, -0.2, -1.0).normalize();
+        assert_abs_diff_eq!(camera.forward(), wanted, epsilon = 1e-6);
+        assert_abs_diff_eq!(camera.right().cross(camera.up()), -wanted, epsilon = 1e-6);
+        assert_abs_diff_eq!(camera.right().dot(camera.up()), 0.0, epsilon = 1e-6);
+        assert!(camera.right().y.abs() < 1e-6 && camera.up().y > 0.9);
     }
 
     #[test]

@@ -16,8 +16,11 @@ pub struct Effects {
     /// Rays that feel for the surroundings. Without them a surface is lit by their mean.
     pub occlusion: Option<Occlusion>,
     /// Surfaces that a path may meet after the first: levels of reflection, or of surfaces seen through
-    /// each other. Beyond the last there are the surroundings.
+    /// each other. Beyond the last there are the floor and the surroundings: at 0 a mirror shows these
+    /// alone, which is environment mapping.
     pub bounces: u32,
+    /// What the scene stands on, if anything.
+    pub floor: Option<Floor>,
     /// What is seen where there is nothing.
     pub environment: Environment,
     /// Bands of light in cel shading; 0 for smooth shades.
@@ -60,6 +63,19 @@ pub struct Occlusion {
     pub rays: u32,
     /// Where they end, scene units; [`NO_LIMIT`](metaball_core::NO_LIMIT) to feel the whole scene.
     pub reach: f32,
+}
+
+/// A level floor, matt, seen from above; y points up. Lamps cast shadows on it, a fluid casts none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Floor {
+    /// The point below the scene, world space.
+    pub middle: Vec3,
+    /// How far around it the floor goes before it is lost in the surroundings, scene units, above 0.
+    pub reach: f32,
+    /// Its colour, linear.
+    pub color: Vec3,
+    /// The side of its tiles, scene units; 0 for none.
+    pub tile: f32,
 }
 
 /// What is seen where there is nothing.
@@ -139,6 +155,17 @@ impl Panorama {
 }
 
 impl Effects {
+    /// Whether the view's first hits tell all: nothing is asked about the scene along further rays.
+    pub fn end_at_first_surface(&self) -> bool {
+        let is_opaque = matches!(self.surface, Surface::Opaque { .. });
+        is_opaque && self.bounces == 0 && !self.feel()
+    }
+
+    /// Whether surfaces send feelers.
+    pub(crate) fn feel(&self) -> bool {
+        self.occlusion.is_some() || self.shadows && !self.lamps.is_empty()
+    }
+
     /// Phong's model under the generated sky, lit by [`Lamp::studio`] without shadows.
     pub fn phong(camera: &Camera) -> Self {
         Self {
@@ -147,6 +174,7 @@ impl Effects {
             shadows: false,
             occlusion: None,
             bounces: 0,
+            floor: None,
             environment: Environment::Sky,
             bands: 0,
         }

@@ -21,6 +21,9 @@
 //! sequence R2, shifted by a hash of pixel, purpose and seed: deterministic, and even at any number of
 //! samples.
 //!
+//! *The floor* ([`Floor`]) is the effects' own: paths meet it where it is nearer than the method's hit, and
+//! rays that ask a method never do.
+//!
 //! *Leaving a surface.* A ray starts beside the point that the last one found, off by the clearance that
 //! the method gives with its answer ([`PackedHit::clearance`](metaball_core::PackedHit::clearance)): an
 //! error bound, not a tuned epsilon, at any scale.
@@ -32,8 +35,9 @@
 mod depth_cue;
 mod effects;
 mod film;
+mod sampling;
 mod studio;
 
-pub use effects::{Effects, Environment, Lamp, Occlusion, Panorama, PanoramaError, Surface};
+pub use effects::{Effects, Environment, Floor, Lamp, Occlusion, Panorama, PanoramaError, Surface};
 pub use film::Film;
 pub use studio::Studio;

@@ -3,12 +3,13 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 use metaball_core::gpu::{
-    Binding, Frame, FrameReport, Gpu, IsoRenderer, Question, RayBatch, RenderError, Shader,
-    Specialization, Targets, bind_group, bind_group_layout, render_with,
+    Binding, Frame, FrameReport, Gpu, IsoRenderer, Question, RayBatch, RayTracer, RenderError,
+    Shader, Specialization, Targets, bind_group, bind_group_layout, render_with,
 };
 use metaball_core::{NO_LIMIT, Scene, View};
 
-use crate::{Effects, Environment, Film, Surface};
+use crate::sampling::shift;
+use crate::{Effects, Environment, Film, Floor, Surface};
 
 /// What all passes are told: WGSL's `Settings` of `light/path.wgsl`.
 #[repr(C)]
@@ -28,6 +29,10 @@ struct Settings {
     bands: u32,
     columns: u32,
     rows: u32,
+    floor_middle: Vec3,
+    floor_reach: f32,
+    floor_color: Vec3,
+    tile: f32,
 }
 
 /// A lamp: WGSL's `LightSource` of `light/path.wgsl`.
@@ -53,7 +58,7 @@ struct Path {
     normal: Vec3,
     bounces: u32,
     pending: Vec3,
-    padding: u32,
+    on_floor: u32,
     base: Vec3,
     doubts: u32,
 }
@@ -165,18 +170,49 @@ impl<'a> Studio<'a> {
         })
     }
 
+    /// Begins a new picture from another place, with the same light.
+    ///
+    /// # Errors
+    /// When the view is of another size, or the device fails.
+    pub fn turn_to(&mut self, view: &View) -> Result<(), RenderError> {
+        let needed = (self.view.width(), self.view.height());
+        let found = (view.width(), view.height());
+        if needed != found {
+            return Err(RenderError::ViewSize { needed, found });
+        }
+        let gpu = self.gpu;
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            encoder.clear_buffer(&self.film, 0, None);
+            gpu.queue.submit([encoder.finish()]);
+        })?;
+        self.view = view.clone();
+        self.settings.exposure = 0;
+        Ok(())
+    }
+
     /// Follows one more path a pixel through the scene that the renderer has built, and adds it to the
     /// film.
+    ///
+    /// A method that follows no rays but the view's own is enough for effects that
+    /// [end at the first surface](Effects::end_at_first_surface).
     ///
     /// # Errors
     /// When the method cannot follow the rays that the effects need, and whatever stops it.
     pub fn expose(&mut self, renderer: &mut dyn IsoRenderer) -> Result<FrameReport, RenderError> {
         let gpu = self.gpu;
-        gpu.checked(|| {
-            gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&self.settings));
-        })?;
-        let report = render_with(gpu, renderer, &self.targets, &self.view, |renderer, frame| {
-            self.encode(renderer, frame)
+        let (mut settings, mut view) = (self.settings, self.view.clone());
+        let follows = self.is_followed_by(renderer);
+        if !follows && self.effects.end_at_first_surface() && settings.exposures > 1 {
+            // The method's rays go through the middles of pixels: the camera is turned in their place.
+            let (right, up) = shift(settings.exposure, settings.seed);
+            let pixel = 2.0 * view.camera().half_height() / view.height() as f32;
+            view = view.with_camera(view.camera().turned(pixel * right, pixel * up));
+            settings.exposures = 1;
+        }
+        gpu.checked(|| gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&settings)))?;
+        let report = render_with(gpu, renderer, &self.targets, &view, |renderer, frame| {
+            if follows { self.encode(renderer, frame) } else { self.encode_first(renderer, frame) }
         })?;
         // What is added is a whole sample: an incomplete frame has been drawn again.
         gpu.checked(|| {
@@ -219,6 +255,35 @@ impl<'a> Studio<'a> {
         &self.feelers
     }
 
+    /// Whether the method answers all that the effects ask along rays.
+    fn is_followed_by(&self, renderer: &mut dyn IsoRenderer) -> bool {
+        let answered = |tracer: &mut dyn RayTracer| {
+            self.effects.questions().iter().all(|&question| tracer.answers(question))
+        };
+        renderer.ray_tracer().is_some_and(answered)
+    }
+
+    /// Paths of one surface, which the method finds along the view's own rays.
+    fn encode_first(
+        &self,
+        renderer: &mut dyn IsoRenderer,
+        frame: &mut Frame<'_>,
+    ) -> Result<(), RenderError> {
+        if !self.effects.end_at_first_surface() {
+            return Err(self.refusal(renderer.name()));
+        }
+        renderer.encode(frame)?;
+        frame.compute("light start", |pass| self.record(pass, &self.passes.start));
+        let (targets, paths) = (&self.targets, &self.paths);
+        let hits = paths.hits();
+        frame.encoder().copy_buffer_to_buffer(targets.hits(), 0, hits, 0, hits.size());
+        if let (Some(found), Some(colors)) = (targets.colors(), paths.colors()) {
+            frame.encoder().copy_buffer_to_buffer(found, 0, colors, 0, colors.size());
+        }
+        frame.compute("light surface", |pass| self.record(pass, &self.passes.surface));
+        Ok(())
+    }
+
     fn encode(
         &self,
         renderer: &mut dyn IsoRenderer,
@@ -226,15 +291,7 @@ impl<'a> Studio<'a> {
     ) -> Result<(), RenderError> {
         let method = renderer.name();
         let needed = self.effects.questions();
-        let Some(tracer) = renderer
-            .ray_tracer()
-            .filter(|tracer| needed.iter().all(|&question| tracer.answers(question)))
-        else {
-            let reason = format!(
-                "needed answers to rays that ask {needed:?} for these effects; the method has none"
-            );
-            return Err(RenderError::Unsupported { method, reason });
-        };
+        let tracer = renderer.ray_tracer().ok_or_else(|| self.refusal(method))?;
         let own = self.settings.lights * self.settings.shadows + self.settings.occlusion_rays;
         frame.compute("light start", |pass| self.record(pass, &self.passes.start));
         for _ in 0..=self.effects.bounces {
@@ -251,6 +308,14 @@ impl<'a> Studio<'a> {
             }
         }
         Ok(())
+    }
+
+    fn refusal(&self, method: &'static str) -> RenderError {
+        let reason = format!(
+            "needed answers to rays that ask {:?} for these effects; the method has none",
+            self.effects.questions()
+        );
+        RenderError::Unsupported { method, reason }
     }
 
     fn record(&self, pass: &mut wgpu::ComputePass<'_>, pipeline: &wgpu::ComputePipeline) {
@@ -287,8 +352,7 @@ impl Effects {
         match self.surface {
             Surface::Fluid { .. } => vec![Question::FirstHit, Question::Exit],
             Surface::Opaque { .. } => {
-                let feels = self.occlusion.is_some() || self.shadows && !self.lamps.is_empty();
-                let feeler = feels.then_some(Question::AnyHit);
+                let feeler = self.feel().then_some(Question::AnyHit);
                 [Question::FirstHit].into_iter().chain(feeler).collect()
             }
         }
@@ -315,6 +379,8 @@ fn settings(effects: &Effects, samples: u32, seed: u32) -> Settings {
         Environment::Sky => (0, 0),
         Environment::Panorama(panorama) => panorama.size(),
     };
+    let none = Floor { middle: Vec3::ZERO, reach: 0.0, color: Vec3::ZERO, tile: 0.0 };
+    let floor = effects.floor.unwrap_or(none);
     Settings {
         absorption,
         refraction,
@@ -330,6 +396,10 @@ fn settings(effects: &Effects, samples: u32, seed: u32) -> Settings {
         bands: effects.bands,
         columns,
         rows,
+        floor_middle: floor.middle,
+        floor_reach: floor.reach,
+        floor_color: floor.color,
+        tile: floor.tile,
     }
 }
 
@@ -365,6 +435,10 @@ mod tests {
             bands,
             columns,
             rows,
+            floor_middle,
+            floor_reach,
+            floor_color,
+            tile,
         });
         assert_eq!(settings, twin("Settings"));
         assert_eq!(host_layout!(LightSource { toward, size, color, padding }), twin("LightSource"));
@@ -378,7 +452,7 @@ mod tests {
             normal,
             bounces,
             pending,
-            padding,
+            on_floor,
             base,
             doubts,
         });

@@ -31,6 +31,13 @@ struct Settings {
     // Columns and rows of the environment's image.
     columns: u32,
     rows: u32,
+    // The point of the floor below the scene, world space, and how far around it the floor goes before it
+    // is lost in the surroundings, scene units; 0 for no floor.
+    floor_middle: vec3<f32>,
+    floor_reach: f32,
+    // Its colour, linear, and the side of its tiles, scene units; 0 for none.
+    floor_color: vec3<f32>,
+    tile: f32,
 }
 
 // Twin of `LightSource` in metaball-light: far away, seen from everywhere in the same direction.
@@ -63,7 +70,8 @@ struct Path {
     bounces: u32,
     // What arrives if the feeler on its way meets nothing.
     pending: vec3<f32>,
-    padding: u32,
+    // Whether the surface is the floor, which neither shines nor lets through.
+    on_floor: u32,
     // The surface's own colour, linear.
     base: vec3<f32>,
     // Rays of this path that a method could not answer.

@@ -2,7 +2,8 @@
 #define_import_path metaball::effects::scatter
 
 #import metaball::free_ray::{FreeRay, ANSWERED, ANY_HIT, EXIT, FIRST_HIT, no_ray}
-#import metaball::effects::environment::{ambient, environment}
+#import metaball::effects::environment::ambient
+#import metaball::effects::floor::beyond
 #import metaball::effects::path::{feelers, lights, path_rays, settings, Path, FEELING, GONE, OUTSIDE, WITHIN}
 #import metaball::effects::sampling::{around, on_disc, point_in_square}
 #import metaball::view::NO_LIMIT
@@ -20,9 +21,14 @@ fn purpose(path: Path, number: u32) -> u32 {
     return 4u * path.bounces + number;
 }
 
+// Whether the surface is the clear fluid's.
+fn is_clear(path: Path) -> bool {
+    return settings.refraction > 0.0 && path.on_floor == 0u;
+}
+
 // Light that needs no feeler: what comes from all around, and lights that cast no shadows.
 fn light_directly(path: ptr<function, Path>, direction: vec3<f32>) {
-    if settings.refraction > 0.0 {
+    if is_clear(*path) {
         return;
     }
     let share = own_share(*path, direction);
@@ -38,7 +44,7 @@ fn light_directly(path: ptr<function, Path>, direction: vec3<f32>) {
 
 // Sends the next feeler, or the path's next ray.
 fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
-    if settings.refraction > 0.0 {
+    if is_clear(*path) {
         pass_through(path, pixel, direction);
         return;
     }
@@ -56,16 +62,18 @@ fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     }
     feelers[pixel].question |= ANSWERED;
     let mirror = mirror_share(*path, direction);
-    if mirror == 0.0 {
+    let toward = normalize(reflect(direction, (*path).normal));
+    (*path).throughput *= mirror;
+    if mirror == 0.0 || (*path).bounces >= settings.bounces {
+        // The last surface of a path mirrors the surroundings alone.
+        (*path).radiance += (*path).throughput * beyond((*path).place, toward);
         (*path).stage = GONE;
         path_rays[pixel].question |= ANSWERED;
         return;
     }
-    (*path).throughput *= mirror;
     (*path).bounces += 1u;
     (*path).stage = OUTSIDE;
-    let onward = reflect(direction, (*path).normal);
-    path_rays[pixel] = FreeRay(start(*path, 1.0), NO_LIMIT, normalize(onward), FIRST_HIT);
+    path_rays[pixel] = FreeRay(start(*path, 1.0), NO_LIMIT, toward, FIRST_HIT);
 }
 
 // A point beside the surface, outside (1) or inside (-1), from which a ray can start.
@@ -73,11 +81,11 @@ fn start(path: Path, side: f32) -> vec3<f32> {
     return path.place + side * path.clearance * path.normal;
 }
 
-// The share of light that is mirrored: Schlick's approximation of Fresnel's equations (1994). None at
-// the last surface of a path, and none inside the solid.
+// The share of light that is mirrored: Schlick's approximation of Fresnel's equations (1994). None by the
+// floor, and none inside the solid.
 fn mirror_share(path: Path, direction: vec3<f32>) -> f32 {
     let cosine = -dot(direction, path.normal);
-    if path.bounces >= settings.bounces || settings.reflectivity == 0.0 || cosine <= 0.0 {
+    if path.on_floor == 1u || settings.reflectivity == 0.0 || cosine <= 0.0 {
         return 0.0;
     }
     return mix(pow(1.0 - min(cosine, 1.0), 5.0), 1.0, settings.reflectivity);
@@ -95,17 +103,19 @@ fn reflected(path: Path, direction: vec3<f32>, light: u32, toward: vec3<f32>) ->
         return vec3<f32>();
     }
     let mirrored = max(dot(reflect(direction, path.normal), toward), 0.0);
-    let highlight = HIGHLIGHT * shaded(vec3(pow(mirrored, SHININESS)));
+    let shine = select(HIGHLIGHT, 0.0, path.on_floor == 1u);
+    let highlight = shine * shaded(vec3(pow(mirrored, SHININESS)));
     return lights[light].color * (path.base * shaded(vec3(cosine)) + highlight);
 }
 
-// In bands where cel shading is asked for.
+// In bands of brightness where cel shading is asked for; the light keeps its colour.
 fn shaded(light: vec3<f32>) -> vec3<f32> {
-    if settings.bands == 0u {
+    let brightness = max(light.x, max(light.y, light.z));
+    if settings.bands == 0u || brightness == 0.0 {
         return light;
     }
     let bands = f32(settings.bands);
-    return floor(light * bands + 0.5) / bands;
+    return light * (floor(brightness * bands + 0.5) / (bands * brightness));
 }
 
 fn feel_for_light(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, light: u32) {
@@ -124,7 +134,7 @@ fn feel_for_sky(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, ray
     let disc = on_disc(point_in_square(pixel, purpose(*path, FOR_SKY), number));
     let height = sqrt(max(1.0 - dot(disc, disc), 0.0));
     let toward = around((*path).normal, vec3(disc, height));
-    let light_found = own_share(*path, direction) * (*path).base * environment(toward)
+    let light_found = own_share(*path, direction) * (*path).base * beyond((*path).place, toward)
         / f32(settings.occlusion_rays);
     send_feeler(path, pixel, toward, settings.occlusion_reach, light_found);
 }
@@ -161,7 +171,7 @@ fn pass_through(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     let toward = normalize(onward);
     if (*path).bounces >= settings.bounces {
         // Beyond the last surface there are only the surroundings.
-        (*path).radiance += (*path).throughput * environment(toward);
+        (*path).radiance += (*path).throughput * beyond((*path).place, toward);
         (*path).stage = GONE;
         path_rays[pixel].question |= ANSWERED;
         return;

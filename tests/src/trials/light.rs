@@ -8,7 +8,7 @@ use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{FreeRay, Gpu, Question, RayBatch, RenderError, Targets, render_with};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
-use metaball_light::{Effects, Environment, Lamp, Occlusion, Studio, Surface};
+use metaball_light::{Effects, Environment, Floor, Lamp, Occlusion, Studio, Surface};
 
 use super::{load, on_gpu, renderer, view_of};
 
@@ -59,6 +59,7 @@ pub(super) fn trials() -> Vec<Trial> {
     trials.push(on_gpu("light::canary::starts_on_the_surface".to_owned(), rejects_no_clearance));
     trials.push(on_gpu("light::same_seed_same_picture".to_owned(), same_seed_same_picture));
     trials.push(on_gpu("light::refused_without_rays".to_owned(), refused_without_rays));
+    trials.push(on_gpu("light::one_surface_is_enough".to_owned(), one_surface_is_enough));
     trials
 }
 
@@ -82,6 +83,7 @@ fn follow(
         Kind::Shadow => {
             effects.shadows = true;
             effects.lamps = vec![Lamp { diameter: 2.0, ..Lamp::studio(view.camera())[0] }];
+            effects.floor = Some(floor_below(scene));
         }
         Kind::Occlusion => effects.occlusion = Some(Occlusion { rays: 2, reach: NO_LIMIT }),
         Kind::Reflection { level } => {
@@ -100,6 +102,18 @@ fn follow(
     match kind {
         Kind::Shadow | Kind::Occlusion => answers(gpu, studio.last_feelers()),
         Kind::Reflection { .. } | Kind::Refraction { .. } => answers(gpu, studio.last_rays()),
+    }
+}
+
+/// Tiles at the lowest point of all supports.
+fn floor_below(scene: &Scene) -> Floor {
+    let bounds = scene.bounds();
+    let diagonal = bounds.extent().length();
+    Floor {
+        middle: bounds.center().with_y(bounds.min.y),
+        reach: 3.0 * diagonal,
+        color: Vec3::splat(0.5),
+        tile: 0.3 * diagonal,
     }
 }
 
@@ -350,12 +364,55 @@ fn same_seed_same_picture(gpu: &Gpu) -> Result<(), Failed> {
     Ok(())
 }
 
+/// What ends at the first surface is drawn from any method's primary hits: as from free rays where every
+/// ray goes through its pixel's middle, and nearly so where samples are spread.
+fn one_surface_is_enough(gpu: &Gpu) -> Result<(), Failed> {
+    let bench = load("colors-100")?;
+    let view = view_of(&bench)?;
+    let effects = Effects {
+        surface: Surface::Opaque { reflectivity: 0.3 },
+        floor: Some(floor_below(&bench.scene)),
+        ..Effects::phong(&bench.camera)
+    };
+    let film = |method, samples| {
+        let mut renderer = renderer(method)?;
+        renderer.build(gpu, &bench.scene)?;
+        let mut studio = Studio::new(gpu, &bench.scene, &view, effects.clone(), samples, 7)?;
+        for _ in 0..samples {
+            studio.expose(renderer.as_mut())?;
+        }
+        Ok::<_, Failed>(studio.film()?.light)
+    };
+    for (samples, tolerance) in [(1, 1e-3), (16, 0.02)] {
+        let wanted = film(CERTIFIED, samples)?;
+        for method in ["kanamori-robust", "illes-exact"] {
+            let found = film(method, samples)?;
+            let apart: f32 =
+                found.iter().zip(&wanted).map(|(a, b)| (*a - *b).abs().max_element()).sum();
+            let mean = apart / wanted.len() as f32;
+            if mean > tolerance {
+                return Err(format!("{method}, {samples} samples: {mean} apart").into());
+            }
+        }
+    }
+    let darkness = vec![Vec3::ZERO; view.pixels()];
+    if film(CERTIFIED, 1)?.iter().zip(&darkness).all(|(a, b)| (*a - *b).length() < 0.02) {
+        return Err("there is nothing to compare".into());
+    }
+    Ok(())
+}
+
 fn refused_without_rays(gpu: &Gpu) -> Result<(), Failed> {
     let bench = load("two-merging")?;
     let view = view_of(&bench)?;
     let fluid = Surface::Fluid { refraction: 1.33, absorption: Vec3::ZERO };
-    for (method, surface) in [("illes", Surface::Opaque { reflectivity: 0.0 }), ("fbvh", fluid)] {
-        let effects = Effects { surface, ..Effects::phong(&bench.camera) };
+    let phong = Effects::phong(&bench.camera);
+    let refused = [
+        ("illes", Effects { shadows: true, ..phong.clone() }),
+        ("kanamori", Effects { bounces: 1, ..phong.clone() }),
+        ("fbvh", Effects { surface: fluid, ..phong }),
+    ];
+    for (method, effects) in refused {
         let mut renderer = renderer(method)?;
         renderer.build(gpu, &bench.scene)?;
         let mut studio = Studio::new(gpu, &bench.scene, &view, effects, 1, 0)?;

@@ -266,6 +266,7 @@ mod tests {
     use metaball_core::gpu::Picture;
 
     use super::*;
+    use crate::camera::CameraOptions;
     use crate::light::LightOptions;
     use crate::light::tests::options;
     use crate::methods::find;
@@ -279,6 +280,7 @@ mod tests {
             overrides: Overrides::default(),
             method: find("fbvh").expect("listed"),
             size: (32, 24),
+            camera: CameraOptions::default(),
             picture: Picture::Phong,
             light: LightOptions::default(),
             device: Device::Cpu,

@@ -1,0 +1,61 @@
+//! `gourmel-light.html`: the tables for a person to read.
+
+use super::compare::CostRow;
+use super::run::{PassKind, Run};
+use super::{
+    COST_HEADINGS, COSTS_TITLE, GAIN_HEADINGS, GAINS_TITLE, Measurements, cost_rows, gain_rows,
+};
+use crate::html::{escape, fill, section};
+use crate::numbers::decimal;
+use crate::report::{STYLE, fact, provenance, remark_paragraphs};
+
+/// The page; needs no other file and no network.
+pub(super) fn page(measurements: &Measurements) -> String {
+    let adapter = &measurements.adapter;
+    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
+    let frames = format!("one from each of {} cameras along the path", measurements.cameras);
+    let facts = fact("Adapter", &escape(&adapter))
+        + &fact("Picture", &format!("{} × {} pixels", measurements.width, measurements.height))
+        + &fact("Frames", &frames);
+    let gains = table(GAINS_TITLE, &GAIN_HEADINGS, &gain_rows(&measurements.gains));
+    let parts = [
+        ("style", STYLE.to_owned()),
+        ("facts", provenance(&measurements.provenance) + &facts),
+        ("remarks", remark_paragraphs(&measurements.remarks)),
+        ("tables", costs(&measurements.costs) + &gains + &runs(&measurements.runs)),
+    ];
+    fill(include_str!("page.html"), &parts)
+}
+
+fn costs(rows: &[CostRow]) -> String {
+    let why = |row: &CostRow| {
+        let why = row.why.as_deref()?;
+        Some(format!("<p>{}, {}: {}</p>\n", escape(&row.scene), escape(&row.effect), escape(why)))
+    };
+    let reasons: String = rows.iter().filter_map(why).collect();
+    table(COSTS_TITLE, &COST_HEADINGS, &cost_rows(rows)) + &reasons
+}
+
+fn runs(runs: &[Run]) -> String {
+    let kinds = PassKind::ALL.map(PassKind::name);
+    let headings = ["scene", "structure", "effects", "frame ms"].into_iter().chain(kinds);
+    let headings: Vec<_> = headings.chain(["undecided rays"]).collect();
+    let row = |run: &Run| {
+        let frame = &run.frame_ms;
+        let frame =
+            format!("{} ({}–{})", decimal(frame.median), decimal(frame.p25), decimal(frame.p75));
+        let texts = [run.scene.clone(), run.method.clone(), run.effect.clone(), frame];
+        let passes = PassKind::ALL.map(|kind| decimal(run.pass_ms(kind)));
+        texts.into_iter().chain(passes).chain([run.doubts.to_string()]).collect()
+    };
+    table("Where the time goes, ms", &headings, &runs.iter().map(row).collect::<Vec<_>>())
+}
+
+fn table(title: &str, headings: &[&str], rows: &[Vec<String>]) -> String {
+    let headings: String = headings.iter().map(|name| format!("<th>{name}</th>")).collect();
+    let row = |cells: &Vec<String>| {
+        let cells: String = cells.iter().map(|cell| format!("<td>{}</td>", escape(cell))).collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    section(title, &headings, &rows.iter().map(row).collect::<String>())
+}
