@@ -2,7 +2,8 @@
 //!
 //! [`load()`] takes what a user types: a name of [`known()`], a generator's spec
 //! (`tornado:5000:40:7`), or the path of a scene file or a particle file. The [`cases()`] are scenes
-//! with a parameter that is turned until a method breaks. [`Moving`] scenes have a scene for each frame.
+//! with a parameter that is turned until a method breaks, [`arbitrary()`] ones are of any kind, by seed.
+//! [`Moving`] scenes have a scene for each frame.
 //! Nothing here knows of any method or GPU.
 //!
 //! ```
@@ -13,6 +14,7 @@
 //! # Ok::<(), bench_scenes::LoadError>(())
 //! ```
 
+mod arbitrary;
 mod cameras;
 mod cases;
 mod density;
@@ -39,6 +41,7 @@ mod xyz;
 
 use metaball_core::{Camera, Scene};
 
+pub use arbitrary::arbitrary;
 pub use cases::{Case, Drawing, Subject, cases};
 pub use density::mean_overlap;
 pub use error::{LoadError, Place};
@@ -51,6 +54,7 @@ pub use numbered::NumberedPath;
 pub use packed_frames::pack_frames;
 pub use particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
 pub use quantized::quantize;
+pub use random::Random;
 
 /// A scene with the cameras that show it.
 #[derive(Debug, Clone, PartialEq)]

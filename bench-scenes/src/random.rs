@@ -5,11 +5,11 @@ use glam::DVec3;
 /// SplitMix64 (Steele, Lea and Flood 2014): 64 bits of state, integer arithmetic only, a good
 /// sequence from any seed. Real numbers are made with exact operations alone.
 #[derive(Debug, Clone)]
-pub(crate) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
     /// The sequence of a seed.
-    pub(crate) fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -22,29 +22,44 @@ impl Random {
     }
 
     /// Uniform in \[0, 1), a multiple of 2⁻⁵³.
-    pub(crate) fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         const STEP: f64 = 1.0 / (1u64 << 53) as f64;
         (self.bits() >> 11) as f64 * STEP
     }
 
     /// Uniform between two numbers.
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
     /// Between −1 and 1, most often near 0: the sum of two uniform numbers.
-    pub(crate) fn triangular(&mut self) -> f64 {
+    pub fn triangular(&mut self) -> f64 {
         self.unit() + self.unit() - 1.0
     }
 
     /// Uniform in the box from −half to half.
-    pub(crate) fn in_box(&mut self, half: DVec3) -> DVec3 {
+    pub fn in_box(&mut self, half: DVec3) -> DVec3 {
         let [x, y, z] = half.to_array().map(|half| self.between(-half, half));
         DVec3::new(x, y, z)
     }
 
+    /// One of some things, each as likely as the others. Panics when there is none.
+    pub fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
+        things[(self.unit() * things.len() as f64) as usize]
+    }
+
+    /// A unit vector, any as likely as another.
+    pub fn direction(&mut self) -> DVec3 {
+        loop {
+            let point = self.in_ball();
+            if point.length_squared() > 1e-4 {
+                return point.normalize();
+            }
+        }
+    }
+
     /// Uniform in the unit ball, by rejection.
-    pub(crate) fn in_ball(&mut self) -> DVec3 {
+    pub fn in_ball(&mut self) -> DVec3 {
         loop {
             let point = self.in_box(DVec3::ONE);
             if point.length_squared() <= 1.0 {
@@ -73,6 +88,8 @@ mod tests {
             assert!((0.0..1.0).contains(&random.unit()));
             assert!(random.triangular().abs() <= 1.0);
             assert!(random.in_ball().length_squared() <= 1.0);
+            assert!((random.direction().length() - 1.0).abs() < 1e-12);
+            assert!([3, 5].contains(&random.one_of(&[3, 5])));
         }
     }
 }

@@ -3,6 +3,7 @@
 mod agreement;
 mod canaries;
 mod capacity;
+mod certify;
 mod fragments;
 mod frames;
 mod gallery;
@@ -26,6 +27,7 @@ pub fn all() -> Vec<Trial> {
     let mut trials = agreement::trials();
     trials.extend(canaries::trials());
     trials.extend(capacity::trials());
+    trials.extend(certify::trials());
     trials.extend(fragments::trials());
     trials.extend(frames::trials());
     trials.extend(light::trials());

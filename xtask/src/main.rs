@@ -13,8 +13,8 @@ const HELP: &str = "\
 cargo xtask test                 formatting, lints, all tests, packages and documentation
 cargo xtask setup                makes sure that a Vulkan adapter exists, and does nothing else
 cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` in release mode:
-                                 compare, chart, stability, render, animate, tables, scenes,
-                                 methods; `help` lists them
+                                 compare, chart, stability, certify, render, animate, tables,
+                                 scenes, methods; `help` lists them
 
 Both set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the
 rights to do so, they install Mesa's software one.

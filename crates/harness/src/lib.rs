@@ -4,14 +4,15 @@
 //! [`contest`] is the heart: it takes a scene through all [`methods`], asks the oracle about the rays
 //! that the shaders used ([`mod@reference`]), and yields a [`record`] for each. [`score`] holds the one
 //! set of definitions of what is wrong, [`measure`] those of what is fast, [`judge`] what each method
-//! promises and is held to. [`mod@compare`], [`mod@render`], [`mod@animate`] and [`mod@stability`] are the
-//! commands; [`camera`] and [`light`] have options of `render` and `animate`, [`auto`] chooses who draws.
-//! [`tables`] holds the tables of papers.
+//! promises and is held to. [`mod@compare`], [`mod@render`], [`mod@animate`], [`mod@stability`] and
+//! [`mod@certify`] are the commands; [`camera`] and [`light`] have options of `render` and `animate`,
+//! [`auto`] chooses who draws. [`tables`] holds the tables of papers.
 //! [`cpu`] and [`shade`] draw where there is no adapter.
 
 pub mod animate;
 pub mod auto;
 pub mod camera;
+pub mod certify;
 pub mod chart;
 pub mod compare;
 pub mod conclusions;

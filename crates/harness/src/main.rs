@@ -13,6 +13,7 @@ use harness::animate::{self, animate};
 use harness::auto::MAX_ERROR;
 use harness::auto::cache::Cache;
 use harness::camera::CameraOptions;
+use harness::certify::{self, certify};
 use harness::compare::{Comparison, DEFAULT_SCENES, compare};
 use harness::contest::Rules;
 use harness::light::LightOptions;
@@ -130,6 +131,31 @@ enum Command {
         methods: Vec<Setting>,
         /// Folder for index.html and records.json.
         #[arg(long, value_name = "DIR", default_value = "out/stability")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
+    },
+    /// Hold the certified tree against the reference over a hundred million rays, most of them hard.
+    ///
+    /// Every stability case within the stated limits, then random scenes; rays of pictures, along the
+    /// surface, along the faces of the tree's boxes, out of the solid. The CPU's tracer answers all, the
+    /// adapter a third. Fails where an answer is wrong, or too many are undecided or inexact. An
+    /// interrupted run is taken up where it was.
+    Certify {
+        /// Different rays, at least [default: 100000000, or 100000 with --quick].
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+        rays: Option<u64>,
+        /// A few values of each case, few rays a scene: seconds, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Other random scenes for another seed.
+        #[arg(long, value_name = "S", default_value = "1", value_parser = clap::value_parser!(u32))]
+        seed: u32,
+        /// Only the CPU's tracer.
+        #[arg(long, conflicts_with_all = ["adapter", "software"])]
+        cpu: bool,
+        /// Folder for certify.json.
+        #[arg(long, value_name = "DIR", default_value = "out/certify")]
         out: PathBuf,
         #[command(flatten)]
         device: AdapterArgs,
@@ -528,6 +554,11 @@ fn run(command: Command) -> anyhow::Result<()> {
         }
         Command::Stability { quick, cases, methods, out, device } => {
             stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })
+        }
+        Command::Certify { rays, quick, seed, cpu, out, device } => {
+            let rays = rays.unwrap_or(if quick { 100_000 } else { 100_000_000 });
+            let adapter = (!cpu).then(|| device.choice());
+            certify(&certify::Order { rays, quick, seed: seed.into(), adapter, out })
         }
         Command::Chart { scenes, quick, fresh, size, out, device } => {
             let extent =
