@@ -11,6 +11,7 @@ mod stage;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use anyhow::Context;
 use bench_scenes::{BenchScene, Overrides, load};
@@ -92,6 +93,9 @@ pub struct Group {
     /// One for each setting.
     pub records: Vec<Record>,
 }
+
+/// Five frames, or what fits into two seconds.
+const FRAMES: Sampling = Sampling { most: 5, enough: Duration::from_secs(2) };
 
 /// A method whose frame took longer than this is not tried on the next, harder scene of its row.
 const PATIENCE_MS: f64 = 4_000.0;
@@ -194,16 +198,19 @@ impl Chart {
         let rules = |planned: &Planned| Rules {
             settings: planned.settings.clone(),
             size: (self.width, self.height),
-            sampling: Sampling::QUICK,
+            sampling: FRAMES,
             along_path: false,
             every_pixel: false,
+            counts_work: false,
         };
         let rules: Vec<_> = plan.iter().map(rules).collect();
         let progress = Progress::new(rules.iter().map(steps).sum());
         let mut done = 0;
         for (planned, mut rules) in plan.iter().zip(rules) {
             done += steps(&rules);
-            if !self.groups.iter().any(|group| group.is_of(planned)) {
+            if self.groups.iter().any(|group| group.is_of(planned)) {
+                progress.skip(done);
+            } else {
                 progress.stage(format!("{}: loading", planned.spec));
                 let tired = self.tired(planned);
                 rules.settings.retain(|setting| !tired.contains_key(setting.method.name));
@@ -216,8 +223,8 @@ impl Chart {
                     }
                 }
                 self.write(path)?;
+                progress.reach(done);
             }
-            progress.reach(done);
         }
         Ok(())
     }
@@ -403,9 +410,10 @@ mod tests {
         let rules = Rules {
             settings: Vec::new(),
             size: (8, 6),
-            sampling: Sampling::QUICK,
+            sampling: FRAMES,
             along_path: false,
             every_pixel: false,
+            counts_work: false,
         };
         let record = skipped(&gpu, &bench, &rules, &easy.settings[0], "not run: too slow");
         let mut chart = Chart::begin(&gpu, &order);

@@ -123,8 +123,8 @@ fn results(records: &[Record]) -> String {
             accuracy.ambiguous.to_string(),
             accuracy.rel_rms_t.map_or_else(dash, small),
             accuracy.t_error_over_radius.map_or_else(dash, |error| small(error.p99)),
-            decimal(measured.work.nodes_per_ray),
-            decimal(measured.work.balls_per_ray),
+            measured.work.map_or_else(dash, |work| decimal(work.nodes_per_ray)),
+            measured.work.map_or_else(dash, |work| decimal(work.balls_per_ray)),
         ])
     };
     table(&headings, &records.iter().filter_map(row).collect::<Vec<_>>())

@@ -1,8 +1,9 @@
 //! What is said to the person at the terminal: results on standard output, the rest on standard
 //! error.
 
+use std::cell::Cell;
 use std::io::{IsTerminal, Write};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
@@ -20,13 +21,16 @@ pub fn note(text: &str) {
 pub struct Progress {
     bar: ProgressBar,
     watched: bool,
+    start: Instant,
+    /// Steps that were done before.
+    skipped: Cell<u64>,
 }
 
 impl Progress {
     /// A bar of so many steps.
     pub fn new(steps: u64) -> Self {
         let bar = ProgressBar::new(steps);
-        let template = "{elapsed_precise} {wide_bar:.cyan} {pos}/{len} {eta} left  {msg:40!}";
+        let template = "{elapsed_precise} {wide_bar:.cyan} {pos}/{len}  {msg:60!}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
@@ -34,19 +38,28 @@ impl Progress {
         if watched {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
-        Self { bar, watched }
+        Self { bar, watched, start: Instant::now(), skipped: Cell::new(0) }
     }
 
     /// Says what begins now, and how long all is likely to take yet.
     pub fn stage(&self, text: String) {
+        let text = match self.left() {
+            Some(left) => format!("{text} ({} left)", HumanDuration(left)),
+            None => text,
+        };
         if self.watched {
             self.bar.set_message(text);
-        } else if self.bar.position() == 0 {
-            note(&text);
         } else {
-            let left = HumanDuration(self.bar.eta());
-            note(&format!("{text} ({left} left)"));
+            note(&text);
         }
+    }
+
+    /// At the pace of all steps so far: that of the last few says little where steps differ as methods
+    /// do. `None` before the first.
+    fn left(&self) -> Option<Duration> {
+        let done = self.bar.position().saturating_sub(self.skipped.get());
+        let left = self.bar.length()?.saturating_sub(self.bar.position());
+        (done > 0).then(|| self.start.elapsed().mul_f64(left as f64 / done as f64))
     }
 
     /// So many steps are done.
@@ -56,6 +69,12 @@ impl Progress {
 
     /// So many steps are done in all.
     pub fn reach(&self, steps: u64) {
+        self.bar.set_position(steps);
+    }
+
+    /// So many steps in all were done by an earlier run, in no time.
+    pub fn skip(&self, steps: u64) {
+        self.skipped.set(self.skipped.get() + steps.saturating_sub(self.bar.position()));
         self.bar.set_position(steps);
     }
 
@@ -96,6 +115,18 @@ pub fn table(headings: &[&str], rows: &[Vec<String>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_an_earlier_run_did_says_nothing_of_the_pace() {
+        let progress = Progress::new(10);
+        assert_eq!(progress.left(), None);
+        progress.skip(6);
+        assert_eq!(progress.left(), None);
+        progress.reach(8);
+        let (left, after) =
+            (progress.left().expect("two steps are done"), progress.start.elapsed());
+        assert!(left <= after, "{left:?} for two steps like those that took {after:?}");
+    }
 
     #[test]
     fn tables_line_up() {

@@ -29,6 +29,8 @@ pub struct Rules {
     pub along_path: bool,
     /// Whether to compare every pixel of a large scene too.
     pub every_pixel: bool,
+    /// Whether to count work too, with renderers of its own, whose shaders are compiled anew.
+    pub counts_work: bool,
 }
 
 /// What a contest yields.
@@ -179,7 +181,7 @@ impl<'a> Arena<'a> {
         let (places, shaded, mut contenders) = unzip(drawings);
         let timings = self.time(&mut contenders)?;
 
-        self.stage("counting work");
+        self.stage(if self.rules.counts_work { "counting work" } else { "scoring" });
         for (((place, shaded), contender), timing) in
             places.into_iter().zip(shaded).zip(contenders).zip(timings)
         {
@@ -187,8 +189,9 @@ impl<'a> Arena<'a> {
             let accuracy = score(&reference, &contender.hits)?;
             let heat = encode_png(&heat_map(&reference, &contender.hits))?;
             let outcome = timing.and_then(|timing| {
-                let work =
-                    count_work(self.gpu, setting.renderer(true), &self.bench.scene, &self.view)?;
+                let count =
+                    || count_work(self.gpu, setting.renderer(true), &self.bench.scene, &self.view);
+                let work = self.rules.counts_work.then(count).transpose()?;
                 Ok(measured(&contender, timing, accuracy, work))
             });
             if outcome.is_ok() {
@@ -280,7 +283,7 @@ fn measured(
     contender: &Contender,
     timing: Timing,
     accuracy: Accuracy,
-    work: WorkPerRay,
+    work: Option<WorkPerRay>,
 ) -> Measured {
     let count =
         |which: fn(&Hit) -> bool| contender.hits.iter().filter(|hit| which(hit)).count() as u64;
@@ -361,6 +364,7 @@ mod tests {
             sampling: Sampling::exactly(2),
             along_path: true,
             every_pixel: false,
+            counts_work: true,
         };
         let contest = hold(&gpu, &bench, &rules, &Progress::new(steps(&rules))).expect("held");
         let [unable, able] = &contest.records[..] else { panic!("two records") };
@@ -370,7 +374,8 @@ mod tests {
         let measured = able.measured.as_ref().expect("drawn");
         assert_eq!(measured.frame_ms.samples.len(), 2);
         assert_eq!(measured.accuracy.rays, 48 * 36);
-        assert!(measured.accuracy.oracle_hits > 0 && measured.work.balls_per_ray > 0.0);
+        assert!(measured.accuracy.oracle_hits > 0);
+        assert!(measured.work.is_some_and(|work| work.balls_per_ray > 0.0));
         assert!(contest.reference.is_some() && contest.pictures.len() == 1);
     }
 
@@ -384,6 +389,7 @@ mod tests {
             sampling: Sampling::exactly(1),
             along_path: false,
             every_pixel: false,
+            counts_work: true,
         };
         let contest = hold(&gpu, &bench, &rules, &Progress::new(steps(&rules))).expect("held");
         assert_eq!(contest.records.len(), 1);

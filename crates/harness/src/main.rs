@@ -496,6 +496,7 @@ fn run(command: Command) -> anyhow::Result<()> {
                 sampling: frames.map_or(Sampling::QUICK, |n| Sampling::exactly(n.into())),
                 along_path: path,
                 every_pixel,
+                counts_work: true,
             };
             let (overrides, adapter) = (common.overrides(), common.adapter());
             compare(&Comparison { scenes, overrides, rules, adapter, out })

@@ -138,7 +138,8 @@ pub struct Measured {
     /// Comparison with the reference.
     pub accuracy: Accuracy,
     /// Work a ray, from a frame of its own that is not timed.
-    pub work: WorkPerRay,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub work: Option<WorkPerRay>,
 }
 
 /// Repeated measurements of one quantity, milliseconds.
@@ -220,7 +221,7 @@ pub(crate) mod tests {
                 normal_degrees: Some(NormalDegrees { mean: 0.01, p99: 0.1, max: 0.2 }),
                 subset: "every pixel".to_owned(),
             },
-            work: WorkPerRay::mean(&[]),
+            work: Some(WorkPerRay::mean(&[])),
         }
     }
 

@@ -138,11 +138,9 @@ fn measured_cells(measured: &Measured) -> String {
         accuracy
             .normal_degrees
             .map_or_else(dash, |error| format!("{}, {}", small(error.mean), small(error.p99))),
-        format!(
-            "{}, {}",
-            decimal(measured.work.nodes_per_ray),
-            decimal(measured.work.balls_per_ray)
-        ),
+        measured.work.map_or_else(dash, |work| {
+            format!("{}, {}", decimal(work.nodes_per_ray), decimal(work.balls_per_ray))
+        }),
     ];
     let cell = |(index, text): (usize, &String)| {
         let class =

@@ -97,17 +97,21 @@ fn climb(
         progress.note("Going on where an interrupted run has stopped.");
     }
     let mut stand = Stand::new(gpu, methods.iter().cloned());
+    let mut done = 0;
     for case in cases {
         progress.stage(case.name.to_owned());
         for &value in values(case, quick) {
+            done += 1;
             let is_here = |cell: &Cell| cell.case == case.name && cell.value == value;
-            if !cells.iter().any(is_here) {
+            if cells.iter().any(is_here) {
+                progress.skip(done);
+            } else {
                 let easier = || cells.iter().filter(|cell| cell.case == case.name);
                 let tried = stand.attempt(case, value, |entrant| rests(easier(), entrant))?;
                 cells.extend(tried);
                 keep(&cells)?;
+                progress.reach(done);
             }
-            progress.advance(1);
         }
     }
     Ok(())
