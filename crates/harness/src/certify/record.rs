@@ -16,7 +16,7 @@ use crate::record::Adapter;
 /// Name and version of the format of [`Certificate`].
 pub const SCHEMA: &str = "metaball-certificate/1";
 
-/// The most rays without an answer: one in so many.
+/// The most clear rays without an answer: one in so many.
 pub const UNDECIDED_ONE_IN: u64 = 10_000;
 
 /// The largest relative RMS error of t.
@@ -148,15 +148,16 @@ impl Certificate {
         rows.map(|row| of(&row.count)).sum()
     }
 
-    /// Undecided rays of a tracer, and the rays that they are held to be few of: all of the CPU's. The
-    /// shaders have no f64 to go on to, so those that are aimed at tangency are counted, but not held.
+    /// Rays that a tracer could not tell though they are clear to the oracle, and the rays that they are
+    /// held to be few of: all of the CPU's. The shaders have no f64 to go on to, so those that are aimed at
+    /// tangency are counted, but not held.
     fn undecided(&self, tracer: Tracer) -> (u64, u64) {
         let is_held = |row: &&CountRow| {
             let Heading { tracer: whose, aim, .. } = row.heading;
             whose == tracer && (tracer == Tracer::Cpu || aim != Aim::Tangent)
         };
         let held = self.counts.iter().filter(is_held).map(|row| row.count);
-        held.fold((0, 0), |sum, count| (sum.0 + count.undecided, sum.1 + count.rays))
+        held.fold((0, 0), |sum, count| (sum.0 + count.undecided_clear, sum.1 + count.rays))
     }
 
     /// The errors of a tracer where they are held: from 1 to 10,000 radii, at scales from 1e-4 to 1e7.
@@ -190,7 +191,7 @@ impl Certificate {
             let most = rays / UNDECIDED_ONE_IN;
             if undecided > most {
                 shortfalls.push(format!(
-                    "{tracer}: needed at most {most} rays undecided, found {undecided}"
+                    "{tracer}: needed at most {most} clear rays undecided, found {undecided}"
                 ));
             }
             let rms = self.held_errors(tracer).rms();
@@ -247,7 +248,7 @@ mod tests {
         hits: 50_000,
         misses: 50_000,
         ambiguous: 10,
-        undecided: 10,
+        undecided: 20,
         undecided_clear: 1,
         wrong: 0,
     };
@@ -263,7 +264,7 @@ mod tests {
         assert!(one(GOOD, 1e-6, 100_001).starts_with("needed 100001 rays"));
         assert!(one(Count { near: 9_999, ..GOOD }, 1e-6, 1).contains("near tangency"));
         assert!(one(Count { wrong: 1, ..GOOD }, 1e-6, 1).contains("no wrong answer, found 1"));
-        assert!(one(Count { undecided: 11, ..GOOD }, 1e-6, 1).contains("at most 10 rays"));
+        assert!(one(Count { undecided_clear: 11, ..GOOD }, 1e-6, 1).contains("at most 10 clear"));
         assert!(one(GOOD, 1.1e-5, 1).contains("RMS error of t of at most 1e-5, found 1.1e-5"));
     }
 
@@ -272,12 +273,15 @@ mod tests {
         let shortfalls = |aim: Aim| {
             let mut certificate = certificate(GOOD, 1e-6);
             let heading = Heading { tracer: Tracer::Adapter, aim, ..FIRST_HITS };
-            let count = Count { undecided: 11, ..GOOD };
+            let count = Count { undecided_clear: 11, ..GOOD };
             certificate.counts.push(CountRow { heading, count });
             certificate.shortfalls(100_000)
         };
         assert_eq!(shortfalls(Aim::Tangent), Vec::<String>::new());
-        assert_eq!(shortfalls(Aim::Face), ["adapter: needed at most 10 rays undecided, found 11"]);
+        assert_eq!(
+            shortfalls(Aim::Face),
+            ["adapter: needed at most 10 clear rays undecided, found 11"]
+        );
     }
 
     #[test]
