@@ -8,7 +8,9 @@
 //!
 //! | import path | modules | chosen by |
 //! | --- | --- | --- |
-//! | `metaball::kernel` | `kernel/power`, `kernel/wyvill`, `kernel/perlin` | [`Variant::kernel`] |
+//! | `metaball::kernel` | `kernel/power`, `kernel/wyvill`, `kernel/perlin`, `kernel/any` | [`Variant::kernel`] |
+//! | `metaball::exponent` | `exponent/compiled`, `exponent/read` | [`Variant::kernel`] |
+//! | `metaball::support` | `support/uniform`, `support/varied` | [`Variant::radii`] |
 //! | `metaball::strength` | `strength/unit`, `strength/varied` | [`Variant::strengths`] |
 //! | `metaball::color` | `color/none`, `color/blended` | [`Variant::colors`] |
 //! | `metaball::base` | `shade/base_white`, `shade/base_blended` | [`Variant::colors`] |
@@ -25,6 +27,7 @@
 //!
 //! let variant = Variant {
 //!     kernel: KernelModule::Power,
+//!     radii: false,
 //!     strengths: false,
 //!     colors: false,
 //!     counting: false,
@@ -38,10 +41,12 @@
 mod compose;
 mod layout;
 mod modules;
+mod size;
 mod variant;
 
 pub use compose::{ComposeError, compose, compose_module};
 pub use layout::{StructLayout, struct_layout};
 pub use modules::{MODULES, Module};
 pub use naga;
+pub use size::code_size;
 pub use variant::{KernelModule, Variant};

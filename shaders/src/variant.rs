@@ -1,14 +1,33 @@
 //! Which of several modules with one import path a shader is made of.
 
-/// The family of a kernel; its exponent is an override constant.
+/// What a shader knows of the kernel when it is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum KernelModule {
-    /// v^α.
+    /// v^α; α is an override constant.
     Power,
+    /// v^α; α is read.
+    AnyPower,
     /// Wyvill's polynomial.
     Wyvill,
     /// Perlin's polynomial.
     Perlin,
+    /// Nothing: the kernel and its exponent are read.
+    Any,
+}
+
+impl KernelModule {
+    const ALL: [Self; 5] = [Self::Power, Self::AnyPower, Self::Wyvill, Self::Perlin, Self::Any];
+
+    /// The modules with the kernel and with its exponent.
+    fn modules(self) -> [&'static str; 2] {
+        match self {
+            Self::Power => ["kernel/power", "exponent/compiled"],
+            Self::AnyPower => ["kernel/power", "exponent/read"],
+            Self::Wyvill => ["kernel/wyvill", "exponent/compiled"],
+            Self::Perlin => ["kernel/perlin", "exponent/compiled"],
+            Self::Any => ["kernel/any", "exponent/read"],
+        }
+    }
 }
 
 /// What a shader is specialised for. What a variant does not need is neither bound nor compiled.
@@ -16,6 +35,8 @@ pub enum KernelModule {
 pub struct Variant {
     /// Falloff of the balls.
     pub kernel: KernelModule,
+    /// Whether balls have radii of their own.
+    pub radii: bool,
     /// Whether balls have strengths of their own.
     pub strengths: bool,
     /// Whether balls have colours.
@@ -28,30 +49,45 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// Every combination, without further choices.
-    pub fn all() -> impl Iterator<Item = Self> {
-        let kernels = [KernelModule::Power, KernelModule::Wyvill, KernelModule::Perlin];
-        kernels.into_iter().flat_map(|kernel| {
-            (0..8).map(move |bits| Self {
-                kernel,
-                strengths: bits & 1 != 0,
-                colors: bits & 2 != 0,
-                counting: bits & 4 != 0,
-                chosen: &[],
-            })
-        })
+    /// Variants to try: every module that a field chooses is in one of them, alone and with all others.
+    /// Without further choices.
+    pub fn trials() -> impl Iterator<Item = Self> {
+        let least = |kernel| Self {
+            kernel,
+            radii: false,
+            strengths: false,
+            colors: false,
+            counting: false,
+            chosen: &[],
+        };
+        let most = move |kernel| Self {
+            radii: true,
+            strengths: true,
+            colors: true,
+            counting: true,
+            ..least(kernel)
+        };
+        let power = least(KernelModule::Power);
+        let alone = [
+            Self { radii: true, ..power },
+            Self { strengths: true, ..power },
+            Self { colors: true, ..power },
+            Self { counting: true, ..power },
+        ];
+        KernelModule::ALL
+            .into_iter()
+            .flat_map(move |kernel| [least(kernel), most(kernel)])
+            .chain(alone)
     }
 
     /// Names of the modules this variant chooses.
     pub(crate) fn modules(&self) -> Vec<&'static str> {
-        let kernel = match self.kernel {
-            KernelModule::Power => "kernel/power",
-            KernelModule::Wyvill => "kernel/wyvill",
-            KernelModule::Perlin => "kernel/perlin",
-        };
+        let [kernel, exponent] = self.kernel.modules();
         let either = |condition, yes, no| if condition { yes } else { no };
         let mut modules = vec![
             kernel,
+            exponent,
+            either(self.radii, "support/varied", "support/uniform"),
             either(self.strengths, "strength/varied", "strength/unit"),
             either(self.colors, "color/blended", "color/none"),
             either(self.colors, "shade/base_blended", "shade/base_white"),

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, HashSet};
 
 use metaball_shaders::{
-    ComposeError, KernelModule, MODULES, Module, Variant, compose, compose_module, struct_layout,
+    ComposeError, KernelModule, MODULES, Module, Variant, code_size, compose, compose_module,
+    struct_layout,
 };
 
 /// What stands behind a directive in a module's lines.
@@ -49,8 +50,10 @@ fn choices() -> BTreeMap<&'static str, Vec<&'static str>> {
 }
 
 /// Import paths that the fields of a variant choose for.
-const BY_VARIANT: [&str; 5] = [
+const BY_VARIANT: [&str; 7] = [
     "metaball::kernel",
+    "metaball::exponent",
+    "metaball::support",
     "metaball::strength",
     "metaball::color",
     "metaball::base",
@@ -74,15 +77,24 @@ fn variants(module: &'static Module) -> Vec<Variant> {
     }
     let chosen: Vec<&'static [&'static str]> =
         combinations.into_iter().map(|chosen| &*chosen.leak()).collect();
-    let [kernel, strength, color, base, work] = BY_VARIANT.map(|path| reached.contains(path));
-    let all = Variant::all().filter(|variant| {
-        (kernel || variant.kernel == KernelModule::Power)
-            && (strength || !variant.strengths)
-            && (color || base || !variant.colors)
-            && (work || !variant.counting)
-    });
-    all.flat_map(|variant| chosen.iter().map(move |&chosen| Variant { chosen, ..variant }))
-        .collect()
+    let [kernel, exponent, support, strength, color, base, work] =
+        BY_VARIANT.map(|path| reached.contains(path));
+    let mut telling = Vec::new();
+    for variant in Variant::trials() {
+        let same_here = Variant {
+            kernel: if kernel || exponent { variant.kernel } else { KernelModule::Power },
+            radii: variant.radii && support,
+            strengths: variant.strengths && strength,
+            colors: variant.colors && (color || base),
+            counting: variant.counting && work,
+            chosen: &[],
+        };
+        if !telling.contains(&same_here) {
+            telling.push(same_here);
+        }
+    }
+    let with_choices = |variant| chosen.iter().map(move |&chosen| Variant { chosen, ..variant });
+    telling.into_iter().flat_map(with_choices).collect()
 }
 
 /// Number of entry points that the composed module has.
@@ -107,7 +119,7 @@ fn every_entry_composes_and_validates_under_every_variant() {
     });
 }
 
-/// The test of a layer depends on all fields of a variant, 24 combinations, on one of three Bernstein
+/// The test of a layer depends on all fields of a variant, 14 of them, on one of three Bernstein
 /// forms and on one of three ways of clipping; what tiles draw on two outlines, and on nothing else.
 #[test]
 fn variants_are_those_that_differ() {
@@ -115,8 +127,50 @@ fn variants_are_those_that_differ() {
         let module = MODULES.iter().find(|module| module.name == name).expect("in the table");
         variants(module).len()
     };
-    assert_eq!(count("kanamori_peel/test"), 24 * (1 + 2 + 2));
+    assert_eq!(count("kanamori_peel/test"), 14 * (1 + 2 + 2));
     assert_eq!(count("kanamori_peel/turn"), 1 + 1);
+}
+
+/// Group and binding of everything that the composed module binds.
+fn bindings(name: &str, variant: &Variant) -> Vec<(u32, u32)> {
+    let module = compose(name, variant).expect("composes");
+    let bound = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
+    let mut bindings: Vec<_> = bound.map(|binding| (binding.group, binding.binding)).collect();
+    bindings.sort_unstable();
+    bindings
+}
+
+/// What a variant has no use for does not exist in its shader: neither of the scene's arrays (group 1)
+/// nor of the frame's (group 0).
+#[test]
+fn variants_bind_what_they_need() {
+    let least = Variant {
+        kernel: KernelModule::Power,
+        radii: false,
+        strengths: false,
+        colors: false,
+        counting: false,
+        chosen: &["kanamori_peel/quartic", "kanamori_peel/clipping_short_stack"],
+    };
+    let least_bindings = bindings("kanamori_peel/test", &least);
+    let changed = |variant: Variant| {
+        let bindings = bindings("kanamori_peel/test", &variant);
+        let beside = |one: &[(u32, u32)], other: &[(u32, u32)]| {
+            let alone = one.iter().filter(|binding| !other.contains(binding));
+            alone.copied().collect::<Vec<_>>()
+        };
+        (beside(&bindings, &least_bindings), beside(&least_bindings, &bindings))
+    };
+    let more = |bindings: &[(u32, u32)]| (bindings.to_vec(), Vec::new());
+    // With radii of their own the common one is gone.
+    assert_eq!(changed(Variant { radii: true, ..least }), (vec![], vec![(1, 4)]));
+    assert_eq!(changed(Variant { strengths: true, ..least }), more(&[(1, 1)]));
+    assert_eq!(changed(Variant { colors: true, ..least }), more(&[(0, 4), (1, 2)]));
+    assert_eq!(changed(Variant { counting: true, ..least }), more(&[(0, 5)]));
+    assert_eq!(changed(Variant { kernel: KernelModule::Wyvill, ..least }), more(&[]));
+    for kernel in [KernelModule::AnyPower, KernelModule::Any] {
+        assert_eq!(changed(Variant { kernel, ..least }), more(&[(1, 5)]));
+    }
 }
 
 #[test]
@@ -157,14 +211,14 @@ fn wgsl_stays_wgsl() {
 
 #[test]
 fn unknown_names_are_named() {
-    let variant = Variant::all().next().expect("there are variants");
+    let variant = Variant::trials().next().expect("there are variants");
     let error = compose("core/nonsense", &variant).expect_err("not in the table");
     assert_eq!(error, ComposeError::Unknown { name: "core/nonsense".to_owned() });
 }
 
 #[test]
 fn layouts_are_reflected() {
-    let variant = Variant::all().next().expect("there are variants");
+    let variant = Variant::trials().next().expect("there are variants");
     let module = compose("core/view", &variant).expect("composes");
     let layout = struct_layout(&module, "Ray").expect("core/view has rays");
     let members = [("direction".to_owned(), 0), ("t_max".to_owned(), 12)];
@@ -174,7 +228,7 @@ fn layouts_are_reflected() {
 
 /// The message of a module made of these lines.
 fn message(source: &'static str) -> String {
-    let variant = Variant::all().next().expect("there are variants");
+    let variant = Variant::trials().next().expect("there are variants");
     let module = Module { name: "test/broken", source, is_entry: true };
     compose_module(&module, &variant).expect_err("broken").to_string()
 }
@@ -199,4 +253,20 @@ fn imports_without_one_provider_are_named() {
     );
     let unchosen = message("#import metaball::opaque::opaque_distance\n");
     assert!(unchosen.ends_with("found opaque/none and opaque/image"), "{unchosen}");
+}
+
+#[test]
+fn code_grows_with_what_is_written() {
+    let variant = Variant::trials().next().expect("there are variants");
+    let size = |source| {
+        let module = Module { name: "test/size", source, is_entry: true };
+        code_size(&compose_module(&module, &variant).expect("composes"))
+    };
+    let empty = size("@compute @workgroup_size(1) fn a() {}");
+    let once = size("@compute @workgroup_size(1) fn a() { var x = 1; x = x + 1; }");
+    let twice = size("@compute @workgroup_size(1) fn a() { var x = 1; x = x + 1; x = x + 1; }");
+    let nested = size(
+        "@compute @workgroup_size(1) fn a() { var x = 1; if x > 0 { x = x + 1; x = x + 1; } }",
+    );
+    assert!(empty < once && once < twice && twice < nested);
 }

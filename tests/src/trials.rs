@@ -9,6 +9,7 @@ mod frames;
 mod gallery;
 mod light;
 mod peeling;
+mod specialisation;
 mod stability;
 mod twins;
 
@@ -32,6 +33,7 @@ pub fn all() -> Vec<Trial> {
     trials.extend(frames::trials());
     trials.extend(light::trials());
     trials.extend(peeling::trials());
+    trials.extend(specialisation::trials());
     trials.extend(stability::trials());
     trials.extend(twins::trials());
     trials

@@ -203,6 +203,7 @@ mod tests {
     fn structs_are_those_of_the_shaders() {
         let variant = Variant {
             kernel: KernelModule::Power,
+            radii: false,
             strengths: false,
             colors: false,
             counting: false,

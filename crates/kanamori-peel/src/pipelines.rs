@@ -1,10 +1,10 @@
 //! The pipelines, and what they are specialised for.
 
-use metaball_core::Kernel;
 use metaball_core::gpu::{
     Binding, Gpu, RenderError, Shader, Specialization, bind_group_layout, frame_layout,
     pipeline_layout, scene_layout,
 };
+use metaball_core::{Kernel, KernelForm};
 
 use crate::{Clipping, Options, Outline};
 
@@ -50,12 +50,13 @@ pub(crate) struct Pipelines {
 }
 
 /// What the search of an interval depends on: the modules with the kernel's Bernstein form and with
-/// the way of clipping, and the former's constants. `None` for a kernel that is no polynomial along a
-/// ray.
+/// the way of clipping. `None` for a kernel that is no polynomial along a ray. A kernel that shaders
+/// are not made for keeps the form of its family, which has a degree of its own.
 pub(crate) fn searching(
     kernel: Kernel,
+    form: KernelForm,
     clipping: Clipping,
-) -> Option<(&'static [&'static str], Option<f64>)> {
+) -> Option<&'static [&'static str]> {
     const SHORT_STACK: &str = "kanamori_peel/clipping_short_stack";
     const ITERATIVE: &str = "kanamori_peel/clipping_iterative";
     const ORIGINAL: &str = "kanamori_peel/clipping_original";
@@ -69,11 +70,9 @@ pub(crate) fn searching(
         };
     }
     match kernel {
-        Kernel::QUARTIC => Some((with!("kanamori_peel/quartic"), None)),
-        Kernel::Power(exponent) => {
-            Some((with!("kanamori_peel/power"), Some(f64::from(exponent.get()))))
-        }
-        Kernel::Wyvill => Some((with!("kanamori_peel/wyvill"), None)),
+        Kernel::QUARTIC if form == KernelForm::Known => Some(with!("kanamori_peel/quartic")),
+        Kernel::Power(_) => Some(with!("kanamori_peel/power")),
+        Kernel::Wyvill => Some(with!("kanamori_peel/wyvill")),
         Kernel::Perlin => None,
     }
 }
@@ -145,8 +144,8 @@ impl Pipelines {
         specialization: Specialization,
         options: &Options,
     ) -> Result<Self, RenderError> {
-        let Some((modules, exponent)) = searching(specialization.kernel, options.clipping) else {
-            let kernel = specialization.kernel;
+        let Specialization { kernel, kernel_form, .. } = specialization;
+        let Some(modules) = searching(kernel, kernel_form, options.clipping) else {
             return Err(RenderError::Unsupported {
                 method,
                 reason: format!(
@@ -176,7 +175,6 @@ impl Pipelines {
         if options.clipping == Clipping::ShortStack {
             searching.push(("34", f64::from(options.stack_size)));
         }
-        searching.extend(exponent.map(|exponent| ("36", exponent)));
 
         let [frame, scene, drawing] = [&layouts.frame, &layouts.scene, &layouts.drawing];
         let bottom = [frame, scene, drawing];

@@ -31,4 +31,6 @@ pub use ball::{Color, Metaball, Support};
 pub use camera::{Camera, CameraError, View, ViewError};
 pub use kernel::{Exponent, ExponentError, Kernel};
 pub use ray::{Hit, NO_LIMIT, PackedHit, Ray, Verdict};
-pub use scene::{RADIUS_LIMITS, Scene, SceneError, check_ball, check_field};
+pub use scene::{
+    Generality, KernelForm, RADIUS_LIMITS, Scene, SceneError, check_ball, check_field,
+};

@@ -7,15 +7,51 @@ use crate::{Aabb, Color, Kernel, Metaball, Support};
 
 /// Balls, their kernel and the threshold T: the surface is where the field equals T.
 ///
-/// What all balls have in common is not stored: a scene in which every strength is 1 keeps no
-/// strengths, one without colours keeps no colours, and neither reaches a shader.
+/// Renderers are made for what all balls have in common: a scene in which every strength is 1 keeps
+/// no strengths, one without colours keeps no colours, and neither reaches a shader, nor does a radius
+/// for each ball where there is but one. [`Scene::generalized`] undoes that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     supports: Vec<Support>,
+    common_radius: Option<f32>,
     strengths: Option<Vec<f32>>,
     colors: Option<Vec<Color>>,
     kernel: Kernel,
+    kernel_form: KernelForm,
     threshold: f32,
+}
+
+/// How much of the kernel a renderer is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum KernelForm {
+    /// All of it.
+    #[default]
+    Known,
+    /// The family of power kernels; it reads the exponent.
+    AnyExponent,
+    /// Nothing; it reads which kernel it is.
+    AnyKernel,
+}
+
+/// What a renderer can be made to read as if it could be otherwise, although a scene leaves no choice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Generality {
+    /// The kernel, and its exponent.
+    Kernel,
+    /// The exponent of a power kernel.
+    Exponent,
+    /// A radius for each ball.
+    Radii,
+    /// A strength for each ball.
+    Strengths,
+    /// A colour for each ball.
+    Colors,
+}
+
+impl Generality {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Kernel, Self::Exponent, Self::Radii, Self::Strengths, Self::Colors];
 }
 
 /// Least and greatest support radius: the square and its inverse are normal f32 numbers.
@@ -91,7 +127,17 @@ impl Scene {
         }
         check_field(supports.len(), threshold)?;
         let strengths = strengths.iter().any(|&strength| strength != 1.0).then_some(strengths);
-        Ok(Self { supports, strengths, colors: None, kernel, threshold })
+        let kernel_form = KernelForm::Known;
+        let common_radius = common_radius(&supports);
+        Ok(Self {
+            supports,
+            common_radius,
+            strengths,
+            colors: None,
+            kernel,
+            kernel_form,
+            threshold,
+        })
     }
 
     /// Gives each ball a colour.
@@ -123,6 +169,31 @@ impl Scene {
         Ok(self)
     }
 
+    /// The same scene, told as if it needed more: renderers read what they could have been made for.
+    /// It looks the same, but for blended colours where there were none, all white.
+    ///
+    /// What that costs is what specialising saves.
+    #[must_use]
+    pub fn generalized(mut self, generality: Generality) -> Self {
+        match generality {
+            Generality::Kernel => self.kernel_form = KernelForm::AnyKernel,
+            Generality::Exponent => {
+                if let (Kernel::Power(_), KernelForm::Known) = (self.kernel, self.kernel_form) {
+                    self.kernel_form = KernelForm::AnyExponent;
+                }
+            }
+            Generality::Radii => self.common_radius = None,
+            Generality::Strengths => {
+                self.strengths.get_or_insert_with(|| vec![1.0; self.supports.len()]);
+            }
+            Generality::Colors => {
+                let white = Color::srgb(255, 255, 255);
+                self.colors.get_or_insert_with(|| vec![white; self.supports.len()]);
+            }
+        }
+        self
+    }
+
     /// Number of balls.
     pub fn len(&self) -> usize {
         self.supports.len()
@@ -136,6 +207,11 @@ impl Scene {
     /// Support spheres of the balls, in the order given.
     pub fn supports(&self) -> &[Support] {
         &self.supports
+    }
+
+    /// The support radius of all balls; `None` when they differ, or there is no ball.
+    pub fn common_radius(&self) -> Option<f32> {
+        self.common_radius
     }
 
     /// Strengths of the balls; `None` when all are 1.
@@ -165,6 +241,11 @@ impl Scene {
         self.kernel
     }
 
+    /// How much of the kernel renderers are made for.
+    pub fn kernel_form(&self) -> KernelForm {
+        self.kernel_form
+    }
+
     /// T: the field on the surface.
     pub fn threshold(&self) -> f32 {
         self.threshold
@@ -176,6 +257,11 @@ impl Scene {
             bounds.union(&Aabb::around_sphere(support.center, support.radius))
         })
     }
+}
+
+fn common_radius(supports: &[Support]) -> Option<f32> {
+    let radius = supports.first()?.radius;
+    supports.iter().all(|support| support.radius == radius).then_some(radius)
 }
 
 fn check_threshold(threshold: f32) -> Result<(), SceneError> {
@@ -264,6 +350,40 @@ mod tests {
         assert_eq!(scene(1.0).strengths(), None);
         assert_eq!(scene(2.0).strengths(), Some(&[2.0][..]));
         assert_eq!(scene(2.0).ball(0).strength, 2.0);
+    }
+
+    #[test]
+    fn one_radius_is_known_as_such() {
+        let scene = |radii: &[f32]| {
+            let balls = radii.iter().map(|&radius| ball(radius, 1.0));
+            Scene::new(balls, Kernel::QUARTIC, 0.5).expect("legal")
+        };
+        assert_eq!(scene(&[0.7, 0.7]).common_radius(), Some(0.7));
+        assert_eq!(scene(&[0.7, 0.7f32.next_up()]).common_radius(), None);
+        assert_eq!(scene(&[]).common_radius(), None);
+    }
+
+    #[test]
+    fn a_generalized_scene_has_the_same_balls() {
+        let scene = Scene::new([ball(0.7, 1.0)], Kernel::QUARTIC, 0.5).expect("legal");
+        let general = Generality::ALL.into_iter().fold(scene.clone(), Scene::generalized);
+        assert_eq!(general.common_radius(), None);
+        assert_eq!(general.strengths(), Some(&[1.0][..]));
+        assert_eq!(general.colors().map(<[Color]>::len), Some(1));
+        assert_eq!(general.kernel_form(), KernelForm::AnyKernel);
+        assert!(general.balls().eq(scene.balls()) && general.kernel() == scene.kernel());
+
+        let form = |kernel| {
+            scene.clone().with_kernel(kernel).generalized(Generality::Exponent).kernel_form()
+        };
+        assert_eq!(form(Kernel::QUARTIC), KernelForm::AnyExponent);
+        assert_eq!(form(Kernel::Wyvill), KernelForm::Known, "it has no exponent");
+    }
+
+    #[test]
+    fn strengths_of_ones_own_stay_where_all_get_one() {
+        let scene = Scene::new([ball(0.7, 2.0)], Kernel::QUARTIC, 0.5).expect("legal");
+        assert_eq!(scene.generalized(Generality::Strengths).strengths(), Some(&[2.0][..]));
     }
 
     #[test]

@@ -413,6 +413,7 @@ mod tests {
     fn host_structs_are_their_wgsl_twins() {
         let variant = Variant {
             kernel: KernelModule::Power,
+            radii: false,
             strengths: false,
             colors: false,
             counting: false,

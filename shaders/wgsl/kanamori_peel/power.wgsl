@@ -2,8 +2,7 @@
 // that of the middle, (4a)^n / (2n over n). The quartic has a module of its own.
 #define_import_path metaball::kanamori_peel::bernstein
 
-// n, from 1 to 8.
-@id(36) override exponent: u32 = 3u;
+#import metaball::exponent::exponent
 
 // Room for the greatest exponent, 8.
 struct Curve {
@@ -11,17 +10,17 @@ struct Curve {
 }
 
 fn degree() -> u32 {
-    return 2u * exponent;
+    return 2u * exponent();
 }
 
 // `a` is Q^2/R^2: half the chord over the radius, squared.
 fn along_chord(a: f32, strength: f32) -> Curve {
     // (2n over n) is the product of (n + k)/k for k from 1 to n.
     var middle = strength;
-    for (var k = 1u; k <= exponent; k++) {
-        middle *= 4.0 * a * f32(k) / f32(exponent + k);
+    for (var k = 1u; k <= exponent(); k++) {
+        middle *= 4.0 * a * f32(k) / f32(exponent() + k);
     }
     var curve = Curve();
-    curve.d[exponent] = middle;
+    curve.d[exponent()] = middle;
     return curve;
 }

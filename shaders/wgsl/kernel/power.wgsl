@@ -1,12 +1,11 @@
 // The power kernel v^alpha, alpha from 1 to 8 (Gourmel et al. 2010, section 2.1).
 #define_import_path metaball::kernel
 
-// alpha. Id 0 of the ids that metaball-core sets.
-@id(0) override exponent: u32 = 2u;
+#import metaball::exponent::exponent
 
 // v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {
-    return power(max(v, 0.0), exponent);
+    return power(max(v, 0.0), exponent());
 }
 
 // Derivative by v; zero for v <= 0.
@@ -14,7 +13,7 @@ fn kernel_slope(v: f32) -> f32 {
     if v <= 0.0 {
         return 0.0;
     }
-    return f32(exponent) * power(v, exponent - 1u);
+    return f32(exponent()) * power(v, exponent() - 1u);
 }
 
 // v^n by repeated squaring, in the order of multiplications of `Kernel::value_at_depth`.

@@ -251,6 +251,7 @@ mod tests {
         for chosen in choices {
             let variant = Variant {
                 kernel: KernelModule::Power,
+                radii: false,
                 strengths: false,
                 colors: false,
                 counting: false,

@@ -12,7 +12,7 @@ use crate::pipelines::searching;
 pub(super) type Record = [f32; 20];
 
 /// What entry `evaluate` of the source makes of each record. `constants` are those of the modules
-/// that it imports, the exponent aside.
+/// that it imports.
 pub(super) fn evaluate(
     gpu: &Gpu,
     source: &'static str,
@@ -22,10 +22,7 @@ pub(super) fn evaluate(
     inputs: &[Record],
 ) -> Vec<Record> {
     let spec = Specialization { kernel, ..Specialization::without_balls() };
-    let (modules, exponent) = searching(kernel, clipping).expect("has a form");
-    let spec = spec.choosing(modules);
-    let mut constants = constants.to_vec();
-    constants.extend(exponent.map(|exponent| ("36", exponent)));
+    let spec = spec.choosing(searching(kernel, spec.kernel_form, clipping).expect("has a form"));
     let module = Module { name: "test", source, is_entry: true };
     let shader = Shader::of_module(gpu, &module, &spec).expect("composes");
     let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
@@ -43,7 +40,7 @@ pub(super) fn evaluate(
         entries: &[storage(0, true), storage(1, false)],
     });
     let pipeline = shader
-        .compute(gpu, "evaluate", "evaluate", &spec, &[&layout], &constants)
+        .compute(gpu, "evaluate", "evaluate", &spec, &[&layout], constants)
         .expect("makes a pipeline");
     let none = wgpu::BufferUsages::empty();
     let workgroups = (inputs.len() as u32).div_ceil(64);

@@ -9,6 +9,7 @@ use crate::tiles::Tile;
 fn twin(module: &str, name: &str) -> StructLayout {
     let variant = Variant {
         kernel: KernelModule::Wyvill,
+        radii: true,
         strengths: true,
         colors: true,
         counting: true,

@@ -1,6 +1,7 @@
 //! The device, and buffers on it.
 
 use std::io::Write;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use bytemuck::Pod;
@@ -21,6 +22,7 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     report: AdapterReport,
     complaint: Arc<Mutex<Option<RenderError>>>,
+    code: AtomicU64,
 }
 
 impl Gpu {
@@ -66,7 +68,7 @@ impl Gpu {
         let report = AdapterReport::new(&adapter.get_info(), &device.limits(), timestamps);
         let complaint = Arc::default();
         listen(&device, &complaint);
-        Self { device, queue, report, complaint }
+        Self { device, queue, report, complaint, code: AtomicU64::new(0) }
     }
 
     /// A device for a test. Without an adapter the test is told to do nothing and says so on the
@@ -93,6 +95,16 @@ impl Gpu {
     /// What is being drawn with.
     pub fn report(&self) -> &AdapterReport {
         &self.report
+    }
+
+    /// Code of all shaders made on this device so far, as
+    /// [`code_size`](metaball_shaders::code_size) counts it.
+    pub fn code(&self) -> u64 {
+        self.code.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn count_code(&self, size: u64) {
+        self.code.fetch_add(size, Ordering::Relaxed);
     }
 
     /// Runs work on the device and returns what it made, unless wgpu complained.

@@ -10,18 +10,18 @@
 //! | made once a | held by | cost |
 //! | --- | --- | --- |
 //! | process | [`Gpu`] | tens of milliseconds |
-//! | scene and [`Specialization`] | the method, its pipelines and [`SceneBuffers`] | composing and compiling shaders, tens of milliseconds a pipeline, and the upload: 16 to 24 bytes a ball |
+//! | scene and [`Specialization`] | the method, its pipelines and [`SceneBuffers`] | composing and compiling shaders, tens of milliseconds a pipeline, and the upload: 12 to 24 bytes a ball |
 //! | image size | [`Targets`] | 32 bytes a pixel; 4 more with colours, 28 more with work counters |
 //! | view | [`Frame`] | the pass `rays`, and what the method records |
 //!
-//! Shaders are specialised: strengths, colours and counters that a scene or a measurement has no use
-//! for are neither bound nor compiled in. The rays of a view are made once a frame and read by every
+//! Shaders are specialised: radii, strengths, colours and counters that a scene or a measurement has
+//! no use for are neither bound nor compiled in. The rays of a view are made once a frame and read by every
 //! method, so methods and reference see the same ray bit for bit.
 //!
 //! # Groups
 //! Group 0 is the frame's ([`frame_layout`]): view, rays, hits, status, and where they exist colours
 //! and work. Group 1 is the scene's ([`scene_layout`]). Groups from 2 on are the method's own. The
-//! WGSL side of both is in the modules `core`, `kernel`, `strength`, `color` and `work` of
+//! WGSL side of both is in the modules `core`, `kernel`, `support`, `strength`, `color` and `work` of
 //! `metaball-shaders`. A pass over the picture has [`Targets::workgroups`] of [`TILE`]² invocations.
 //!
 //! # Other rays
@@ -72,7 +72,7 @@ pub use layout::{Binding, Resource, group as bind_group, layout as bind_group_la
 pub use pipeline::{Shader, Specialization, compute_pipeline, pipeline_layout};
 pub use rays::PackedRay;
 pub use renderer::{BuildReport, IsoRenderer, render, render_with};
-pub use scene_buffers::{SceneBuffers, SceneHeader, scene_layout};
+pub use scene_buffers::{KernelRead, SceneBuffers, SceneHeader, scene_layout};
 pub use shade::{Image, Picture, Shaded, Shading, ValueRange};
 pub use targets::{TILE, Targets, ViewUniform, frame_layout};
 pub use work::{Work, WorkKind};

@@ -2,12 +2,12 @@
 
 use std::borrow::Cow;
 
-use metaball_shaders::{KernelModule, Module, Variant, compose, compose_module, naga};
+use metaball_shaders::{KernelModule, Module, Variant, code_size, compose, compose_module, naga};
 
 use super::{Gpu, RenderError};
-use crate::{Kernel, Scene};
+use crate::{Kernel, KernelForm, Scene};
 
-/// Key of the override constant in `kernel/power.wgsl`: its `@id`.
+/// Key of the override constant in `exponent/compiled.wgsl`: its `@id`.
 ///
 /// Composition changes the names of constants, so they are set by id. Ids below 16 belong to the
 /// shared modules; methods number theirs from 16.
@@ -18,6 +18,10 @@ const EXPONENT: &str = "0";
 pub struct Specialization {
     /// Falloff of the balls.
     pub kernel: Kernel,
+    /// How much of it shaders are compiled for.
+    pub kernel_form: KernelForm,
+    /// Whether balls have radii of their own.
+    pub radii: bool,
     /// Whether balls have strengths of their own.
     pub strengths: bool,
     /// Whether balls have colours.
@@ -33,6 +37,8 @@ impl Specialization {
     pub fn of(scene: &Scene, counting: bool) -> Self {
         Self {
             kernel: scene.kernel(),
+            kernel_form: scene.kernel_form(),
+            radii: scene.common_radius().is_none(),
             strengths: scene.strengths().is_some(),
             colors: scene.colors().is_some(),
             counting,
@@ -44,6 +50,8 @@ impl Specialization {
     pub fn without_balls() -> Self {
         Self {
             kernel: Kernel::QUARTIC,
+            kernel_form: KernelForm::Known,
+            radii: false,
             strengths: false,
             colors: false,
             counting: false,
@@ -60,11 +68,14 @@ impl Specialization {
     /// The modules to compose.
     pub fn variant(&self) -> Variant {
         Variant {
-            kernel: match self.kernel {
-                Kernel::Power(_) => KernelModule::Power,
-                Kernel::Wyvill => KernelModule::Wyvill,
-                Kernel::Perlin => KernelModule::Perlin,
+            kernel: match (self.kernel_form, self.kernel) {
+                (KernelForm::AnyKernel, _) => KernelModule::Any,
+                (KernelForm::AnyExponent, Kernel::Power(_)) => KernelModule::AnyPower,
+                (KernelForm::Known, Kernel::Power(_)) => KernelModule::Power,
+                (_, Kernel::Wyvill) => KernelModule::Wyvill,
+                (_, Kernel::Perlin) => KernelModule::Perlin,
             },
+            radii: self.radii,
             strengths: self.strengths,
             colors: self.colors,
             counting: self.counting,
@@ -141,6 +152,7 @@ impl Shader {
 
     fn of_composed(gpu: &Gpu, label: &str, composed: naga::Module) -> Result<Self, RenderError> {
         let ids = override_ids(&composed);
+        gpu.count_code(code_size(&composed));
         let module = gpu.checked(|| {
             gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(label),

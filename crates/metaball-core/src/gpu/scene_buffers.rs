@@ -4,11 +4,11 @@ use bytemuck::{Pod, Zeroable};
 
 use super::layout::{Binding, group, layout};
 use super::{Gpu, RenderError, Specialization};
-use crate::Scene;
+use crate::{Kernel, KernelForm, Scene};
 
 /// What a scene needs on the device, once for all methods: group 1 of their pipelines.
 ///
-/// 16 bytes a ball; 4 more where strengths vary, 4 more where there are colours.
+/// 12 bytes a ball; 4 more where radii vary, 4 where strengths do, 4 where there are colours.
 #[derive(Debug)]
 pub struct SceneBuffers {
     bind_group: wgpu::BindGroup,
@@ -25,6 +25,27 @@ pub struct SceneHeader {
     pub balls: u32,
 }
 
+/// Which kernel it is, for shaders that are not compiled for it: WGSL's `KernelRead` of
+/// `kernel/read.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct KernelRead {
+    /// 0: power, 1: Wyvill's, 2: Perlin's.
+    pub family: u32,
+    /// α of a power kernel, 1 of the others.
+    pub exponent: u32,
+}
+
+impl From<Kernel> for KernelRead {
+    fn from(kernel: Kernel) -> Self {
+        match kernel {
+            Kernel::Power(exponent) => Self { family: 0, exponent: exponent.get().into() },
+            Kernel::Wyvill => Self { family: 1, exponent: 1 },
+            Kernel::Perlin => Self { family: 2, exponent: 1 },
+        }
+    }
+}
+
 impl SceneBuffers {
     /// Uploads the scene.
     ///
@@ -32,19 +53,36 @@ impl SceneBuffers {
     /// When it has more balls than the adapter can bind.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, RenderError> {
         let none = wgpu::BufferUsages::empty();
-        let supports = gpu.upload("support spheres", scene.supports(), none)?;
+        let uniform = wgpu::BufferUsages::UNIFORM;
+        let radius = scene
+            .common_radius()
+            .map(|radius| gpu.upload("common radius", &[radius], uniform))
+            .transpose()?;
+        let balls = match &radius {
+            Some(_) => {
+                let centers: Vec<_> =
+                    scene.supports().iter().map(|support| support.center).collect();
+                gpu.upload("centres", &centers, none)?
+            }
+            None => gpu.upload("support spheres", scene.supports(), none)?,
+        };
+        let kernel = (scene.kernel_form() != KernelForm::Known)
+            .then(|| gpu.upload("kernel", &[KernelRead::from(scene.kernel())], uniform))
+            .transpose()?;
         let strengths =
             scene.strengths().map(|all| gpu.upload("strengths", all, none)).transpose()?;
         let colors = scene.colors().map(|all| gpu.upload("colours", all, none)).transpose()?;
         let header = gpu.upload(
             "scene header",
             &[SceneHeader { threshold: scene.threshold(), balls: scene.len() as u32 }],
-            wgpu::BufferUsages::UNIFORM,
+            uniform,
         )?;
 
-        let mut buffers = vec![(0, &supports), (3, &header)];
+        let mut buffers = vec![(0, &balls), (3, &header)];
         buffers.extend(strengths.as_ref().map(|buffer| (1, buffer)));
         buffers.extend(colors.as_ref().map(|buffer| (2, buffer)));
+        buffers.extend(radius.as_ref().map(|buffer| (4, buffer)));
+        buffers.extend(kernel.as_ref().map(|buffer| (5, buffer)));
         let layout = scene_layout(gpu, &Specialization::of(scene, false));
         let bind_group = gpu.checked(|| group(gpu, "scene", &layout, &buffers))?;
         let bytes = buffers.iter().map(|(_, buffer)| buffer.size()).sum();
@@ -67,5 +105,7 @@ pub fn scene_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
     let mut bindings = vec![(0, Binding::Read), (3, Binding::Uniform)];
     bindings.extend(spec.strengths.then_some((1, Binding::Read)));
     bindings.extend(spec.colors.then_some((2, Binding::Read)));
+    bindings.extend((!spec.radii).then_some((4, Binding::Uniform)));
+    bindings.extend((spec.kernel_form != KernelForm::Known).then_some((5, Binding::Uniform)));
     layout(gpu, "scene", &bindings)
 }

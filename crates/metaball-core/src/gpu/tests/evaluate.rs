@@ -4,16 +4,19 @@ use glam::{Vec3, Vec4};
 use metaball_shaders::Module;
 
 use crate::gpu::layout::{Binding, group, layout};
-use crate::gpu::{Gpu, Shader, Specialization};
-use crate::{Kernel, PackedHit};
+use crate::gpu::{Gpu, SceneBuffers, Shader, Specialization, scene_layout};
+use crate::{Generality, Kernel, PackedHit, Scene};
 
-/// What entry `evaluate` of the module makes of each value.
-fn evaluate(gpu: &Gpu, module: &Module, spec: &Specialization, inputs: &[Vec4]) -> Vec<Vec4> {
+/// What entry `evaluate` of the module makes of each value, in a scene that it may look at.
+fn evaluate(gpu: &Gpu, module: &Module, scene: &Scene, inputs: &[Vec4]) -> Vec<Vec4> {
+    let spec = Specialization::of(scene, false);
     let bindings = layout(gpu, "values", &[(0, Binding::Read), (1, Binding::Write)]);
-    let shader = Shader::of_module(gpu, module, spec).expect("composes");
+    let shader = Shader::of_module(gpu, module, &spec).expect("composes");
+    let layouts = [&bindings, &scene_layout(gpu, &spec)];
     let pipeline = shader
-        .compute(gpu, "evaluate", "evaluate", spec, &[&bindings], &[])
+        .compute(gpu, "evaluate", "evaluate", &spec, &layouts, &[])
         .expect("makes a pipeline");
+    let scene = SceneBuffers::new(gpu, scene).expect("small");
     let none = wgpu::BufferUsages::empty();
     let inputs = gpu.upload("inputs", inputs, none).expect("small");
     let outputs = gpu.storage("outputs", inputs.size(), none).expect("small");
@@ -23,12 +26,17 @@ fn evaluate(gpu: &Gpu, module: &Module, spec: &Specialization, inputs: &[Vec4]) 
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &values, &[]);
+        pass.set_bind_group(1, scene.bind_group(), &[]);
         pass.dispatch_workgroups((inputs.size() / 16).div_ceil(64) as u32, 1, 1);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
     })
     .expect("runs");
     gpu.read(&outputs).expect("reads")
+}
+
+fn empty(kernel: Kernel) -> Scene {
+    Scene::new([], kernel, 0.5).expect("legal")
 }
 
 /// Points spread evenly over the unit sphere, and the corners and edges of the octahedron.
@@ -63,7 +71,7 @@ fn normals_survive_packing() {
     let module = Module { name: "test", source, is_entry: true };
     let normals = normals();
     let inputs: Vec<_> = normals.iter().map(|normal| normal.extend(0.0)).collect();
-    let outputs = evaluate(&gpu, &module, &Specialization::without_balls(), &inputs);
+    let outputs = evaluate(&gpu, &module, &empty(Kernel::QUARTIC), &inputs);
     let tolerance = 23.0 * 0.5f32.powi(24);
     for (normal, output) in normals.iter().zip(outputs) {
         let packed = PackedHit { normal: [output.x, output.y], t: 1.0, status: 1 };
@@ -76,7 +84,8 @@ fn normals_survive_packing() {
 
 /// Both sides multiply in the same order. A compiler may contract or reorder, and WGSL allows square
 /// roots and divisions 2.5 units: less than 8 roundings of values up to 1, or up to 8 for slopes.
-/// Perlin's kernel near the rim has ρ to u, so (1 − ρ)² times 90u at most.
+/// Perlin's kernel near the rim has ρ to u, so (1 − ρ)² times 90u at most. So with the kernel compiled in,
+/// and with its exponent or all of it read.
 #[test]
 fn kernels_are_those_of_the_host() {
     let Some(gpu) = Gpu::for_test() else { return };
@@ -92,13 +101,19 @@ fn kernels_are_those_of_the_host() {
     let depths: Vec<_> = (-20..=1000).map(|step| step as f32 / 1000.0).collect();
     let inputs: Vec<_> = depths.iter().map(|v| Vec4::splat(*v)).collect();
     for kernel in Kernel::all() {
-        let spec = Specialization { kernel, ..Specialization::without_balls() };
-        let outputs = evaluate(&gpu, &module, &spec, &inputs);
-        for (v, output) in depths.iter().zip(outputs) {
-            let value = (output.x - kernel.value_at_depth(*v)).abs();
-            let slope = (output.y - kernel.slope_at_depth(*v)).abs();
-            assert!(value <= 8.0 * 0.5f32.powi(24), "{kernel} at {v}: {value:e}");
-            assert!(slope <= 64.0 * 0.5f32.powi(24), "slope of {kernel} at {v}: {slope:e}");
+        let compiled = empty(kernel);
+        let read =
+            [Generality::Exponent, Generality::Kernel].map(|part| empty(kernel).generalized(part));
+        for scene in read.iter().chain([&compiled]) {
+            let form = scene.kernel_form();
+            let outputs = evaluate(&gpu, &module, scene, &inputs);
+            for (v, output) in depths.iter().zip(outputs) {
+                let value = (output.x - kernel.value_at_depth(*v)).abs();
+                let slope = (output.y - kernel.slope_at_depth(*v)).abs();
+                assert!(value <= 8.0 * 0.5f32.powi(24), "{kernel}, {form:?}, at {v}: {value:e}");
+                let allowed = 64.0 * 0.5f32.powi(24);
+                assert!(slope <= allowed, "slope of {kernel}, {form:?}, at {v}: {slope:e}");
+            }
         }
     }
 }

@@ -3,11 +3,13 @@
 use metaball_shaders::{StructLayout, Variant, compose, host_layout, struct_layout};
 
 use crate::gpu::spheres::CoreSphere;
-use crate::gpu::{FrameStatus, FreeRay, PackedRay, SceneHeader, ValueRange, ViewUniform, Work};
+use crate::gpu::{
+    FrameStatus, FreeRay, KernelRead, PackedRay, SceneHeader, ValueRange, ViewUniform, Work,
+};
 use crate::{PackedHit, Support};
 
 fn wgsl(module: &str, name: &str) -> StructLayout {
-    let variant = Variant::all().next().expect("there are variants");
+    let variant = Variant::trials().next().expect("there are variants");
     let module = compose(module, &variant).expect("composes");
     struct_layout(&module, name).expect("the module has the struct")
 }
@@ -28,6 +30,7 @@ fn host_structs_are_their_twins() {
         (wgsl("core/status", "Status"), host_layout!(FrameStatus { unfinished, needed })),
         (wgsl("core/scene", "Support"), host_layout!(Support { center, radius })),
         (wgsl("core/scene", "SceneHeader"), host_layout!(SceneHeader { threshold, balls })),
+        (wgsl("kernel/read", "KernelRead"), host_layout!(KernelRead { family, exponent })),
         (
             wgsl("work/record", "Work"),
             host_layout!(Work {

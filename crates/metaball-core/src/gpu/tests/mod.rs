@@ -5,4 +5,5 @@ mod frames;
 mod layouts;
 mod pictures;
 mod rays;
+mod scene_buffers;
 mod sphere;

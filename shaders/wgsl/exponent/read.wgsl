@@ -1,0 +1,9 @@
+// An exponent that is read, as if the shader served all power kernels.
+#define_import_path metaball::exponent
+
+#import metaball::kernel_read::kernel_read
+
+// alpha of a power kernel, from 1 to 8.
+fn exponent() -> u32 {
+    return kernel_read.exponent;
+}

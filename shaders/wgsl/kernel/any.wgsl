@@ -1,0 +1,57 @@
+// All kernels, told apart wherever a value is asked for. Formulas and order of operations are those of
+// power.wgsl, wyvill.wgsl and perlin.wgsl.
+#define_import_path metaball::kernel
+
+#import metaball::exponent::exponent
+#import metaball::kernel_read::{kernel_read, PERLIN, POWER}
+
+// v = 1 - r^2/R^2; zero for v <= 0.
+fn kernel(v: f32) -> f32 {
+    let depth = max(v, 0.0);
+    if kernel_read.family == POWER {
+        return power(depth, exponent());
+    }
+    if kernel_read.family == PERLIN {
+        let rho = sqrt(clamp(1.0 - v, 0.0, 1.0));
+        let rest = 1.0 - rho;
+        return rest * rest * rest * (1.0 + 3.0 * rho + 6.0 * rho * rho);
+    }
+    return depth * depth * (5.0 + 4.0 * depth) * (1.0 / 9.0);
+}
+
+// Derivative by v; zero for v <= 0.
+fn kernel_slope(v: f32) -> f32 {
+    let depth = max(v, 0.0);
+    if kernel_read.family == POWER {
+        return select(0.0, f32(exponent()) * power(depth, exponent() - 1u), v > 0.0);
+    }
+    if kernel_read.family == PERLIN {
+        let rho = sqrt(clamp(1.0 - v, 0.0, 1.0));
+        let rest = 1.0 - rho;
+        return 15.0 * rho * rest * rest;
+    }
+    return depth * (10.0 + 12.0 * depth) * (1.0 / 9.0);
+}
+
+// v^n by repeated squaring.
+fn power(v: f32, n: u32) -> f32 {
+    let squared = v * v;
+    let fourth = squared * squared;
+    var product = select(1.0, v, (n & 1u) != 0u);
+    product *= select(1.0, squared, (n & 2u) != 0u);
+    product *= select(1.0, fourth, (n & 4u) != 0u);
+    product *= select(1.0, fourth * fourth, (n & 8u) != 0u);
+    return product;
+}
+
+// The greatest slope between two values of v: Perlin's peaks at rho = 1/3, the others grow with v.
+fn steepest_slope(least: f32, most: f32) -> f32 {
+    const PEAK: f32 = 8.0 / 9.0;
+    if kernel_read.family == PERLIN {
+        if least > PEAK {
+            return kernel_slope(least);
+        }
+        return select(kernel_slope(most), 20.0 / 9.0, most > PEAK);
+    }
+    return kernel_slope(most);
+}
