@@ -24,7 +24,7 @@ use harness::render::{Choosing, Device, Drawing, Order, render};
 use harness::settings::Setting;
 use harness::settings::variants::entrants;
 use harness::stability::{self, stability};
-use harness::tables::{self, gourmel, gourmel_light, illes, kanamori, peers};
+use harness::tables::{self, gourmel, gourmel_light, illes, kanamori, peers, specialisation};
 use harness::{chart, console, list};
 use metaball_core::Kernel;
 use metaball_core::gpu::{AdapterChoice, Picture};
@@ -113,7 +113,8 @@ enum Command {
         #[arg(long)]
         in_turn: bool,
     },
-    /// Measure a paper's tables anew, and set the printed numbers beside; or other programs.
+    /// Measure a paper's tables anew, and set the printed numbers beside; or other programs; or what it
+    /// saves that shaders are made for a scene.
     Tables {
         #[command(subcommand)]
         paper: Paper,
@@ -277,6 +278,24 @@ enum Paper {
         #[arg(long, value_name = "WxH")]
         size: Option<Size>,
         /// Folder for auto.html and auto.json.
+        #[arg(long, value_name = "DIR", default_value = "out/tables")]
+        out: PathBuf,
+        #[command(flatten)]
+        device: AdapterArgs,
+    },
+    /// No paper: frame time, memory and code with shaders made for a scene, against shaders that read
+    /// its kernel, exponent, radii, strengths or colours, or count their work.
+    Specialisation {
+        /// Known names, generators, or files; four scenes of 4,000 to 30,720 balls when left out.
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+        /// Hundreds of balls, small pictures: seconds, to see that everything works.
+        #[arg(long)]
+        quick: bool,
+        /// Pixels across and down; 160x120 when left out.
+        #[arg(long, value_name = "WxH")]
+        size: Option<Size>,
+        /// Folder for specialisation.html and specialisation.json.
         #[arg(long, value_name = "DIR", default_value = "out/tables")]
         out: PathBuf,
         #[command(flatten)]
@@ -552,6 +571,13 @@ fn run(command: Command) -> anyhow::Result<()> {
             let extent = if quick { Extent::Quick } else { Extent::Whole };
             let size = size.map(|Size(width, height)| (width, height));
             tables::auto::tables(&Order { scenes, extent, size, adapter: device.choice(), out })
+        }
+        Command::Tables { paper: Paper::Specialisation { scenes, quick, size, out, device } } => {
+            let extent =
+                if quick { specialisation::Extent::Quick } else { specialisation::Extent::Whole };
+            let size = size.map(|Size(width, height)| (width, height));
+            let adapter = device.choice();
+            specialisation::tables(&specialisation::Order { scenes, extent, size, adapter, out })
         }
         Command::Stability { quick, cases, methods, out, device } => {
             stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use metaball_core::gpu::{self, BuildReport, Gpu, IsoRenderer, RenderError, Targets};
+use metaball_core::gpu::{self, BuildReport, FrameReport, Gpu, IsoRenderer, RenderError, Targets};
 use metaball_core::{Aabb, Camera, Hit, Scene, View, ViewError};
 
 use crate::record::{Samples, WorkPerRay};
@@ -49,7 +49,8 @@ pub struct Timing {
 }
 
 impl Contender {
-    /// Builds for the scene and draws the view into the targets, which have no work counters.
+    /// Builds for the scene and draws the view into the targets, which have work counters if the
+    /// renderer counts.
     ///
     /// # Errors
     /// When the renderer cannot do the scene, or its frame stays incomplete.
@@ -66,12 +67,25 @@ impl Contender {
         Ok(Self { build, hits, renderer })
     }
 
+    /// Draws a frame into targets like those that it was prepared with.
+    ///
+    /// # Errors
+    /// When the frame stays incomplete, or the device fails.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        targets: &Targets,
+        view: &View,
+    ) -> Result<FrameReport, RenderError> {
+        gpu::render(gpu, self.renderer.as_mut(), targets, view)
+    }
+
     /// Draws another view, into targets of any size: `hits` are of that one now.
     ///
     /// # Errors
     /// When its frame stays incomplete.
     pub fn redraw(&mut self, gpu: &Gpu, targets: &Targets, view: &View) -> Result<(), RenderError> {
-        gpu::render(gpu, self.renderer.as_mut(), targets, view)?;
+        self.draw(gpu, targets, view)?;
         self.hits = targets.read_hits(gpu)?;
         Ok(())
     }
@@ -100,7 +114,7 @@ pub fn time_all(
             if let Ok(taken) = frames
                 && !(taken.wall_ms.len() >= LEAST_FRAMES && taken.total() >= enough)
             {
-                match gpu::render(gpu, contender.renderer.as_mut(), targets, view) {
+                match contender.draw(gpu, targets, view) {
                     Ok(report) => taken.add(report.wall, &report.passes),
                     Err(error) => *frames = Err(error),
                 }
