@@ -14,6 +14,7 @@ mod stability;
 mod twins;
 
 use bench_scenes::{BenchScene, Overrides};
+use harness::settings::Setting;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
 use metaball_core::{Hit, Ray, Scene, View};
@@ -52,11 +53,15 @@ fn on_gpu(
     .with_ignored_flag(gpu.is_none())
 }
 
+/// A method as it is listed.
+fn preset(method: &str) -> Result<Setting, Failed> {
+    let found = harness::methods::find(method);
+    Ok(found.ok_or_else(|| format!("no method is called {method}"))?.into())
+}
+
 /// A renderer of a method that does not count its work.
 fn renderer(method: &str) -> Result<Box<dyn IsoRenderer>, Failed> {
-    let found = harness::methods::find(method);
-    let method = found.ok_or_else(|| format!("no method is called {method}"))?;
-    Ok((method.make)(false))
+    Ok(preset(method)?.renderer(false))
 }
 
 /// The scenes on which every method is tried: all small ones, and the molecule.

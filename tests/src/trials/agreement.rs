@@ -1,30 +1,31 @@
-//! Every method against the oracle on every scene, and every method against every other.
+//! Every method, and every variant of one, against the oracle on every scene, and each against every
+//! other.
 
-use harness::judge::promise::promise_of;
 use harness::judge::refusals::{Refusal, refusal_of};
-use harness::judge::{Findings, terms_of};
-use harness::methods::METHODS;
+use harness::judge::{Findings, Terms};
+use harness::settings::Setting;
+use harness::settings::variants::entrants;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Scene;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
 
 use super::gallery::{picture, room};
-use super::{on_gpu, renderer, scenes};
+use super::{on_gpu, scenes};
 
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for scene in scenes() {
-        for method in METHODS {
-            let name = format!("agreement::{scene}::{}", method.name);
-            trials.push(on_gpu(name, move |gpu| with_oracle(gpu, scene, method.name)));
-        }
-        for (index, ours) in METHODS.iter().enumerate() {
-            for theirs in &METHODS[index + 1..] {
+        let entrants = entrants();
+        for (index, ours) in entrants.iter().enumerate() {
+            for theirs in entrants[index + 1..].iter().cloned() {
                 let name = format!("agreement::{scene}::{}~{}", ours.name, theirs.name);
-                trials.push(on_gpu(name, move |gpu| {
-                    with_each_other(gpu, scene, ours.name, theirs.name)
-                }));
+                let ours = ours.clone();
+                trials.push(on_gpu(name, move |gpu| with_each_other(gpu, scene, &ours, &theirs)));
             }
+        }
+        for entrant in entrants {
+            let name = format!("agreement::{scene}::{}", entrant.name);
+            trials.push(on_gpu(name, move |gpu| with_oracle(gpu, scene, &entrant)));
         }
     }
     trials
@@ -39,12 +40,12 @@ pub(super) fn pass(findings: &Findings) -> Result<(), Failed> {
     Err(format!("{} violations\n  {shown}", findings.violations.len()).into())
 }
 
-fn with_oracle(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(), Failed> {
+fn with_oracle(gpu: &Gpu, scene: &'static str, entrant: &Setting) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    if let Some(refusal) = refusal_of(method, &room.scene.scene) {
-        return refuses(gpu, renderer(method)?.as_mut(), &room.scene.scene, refusal);
+    if let Some(refusal) = refusal_of(entrant.method.name, &room.scene.scene) {
+        return refuses(gpu, entrant.renderer(false).as_mut(), &room.scene.scene, refusal);
     }
-    pass(&room.exam.judge(&picture(gpu, scene, method)?, &terms_of(method)))
+    pass(&room.exam.judge(&picture(gpu, scene, entrant)?, &Terms::of_setting(entrant)))
 }
 
 fn refuses(
@@ -62,14 +63,17 @@ fn refuses(
 fn with_each_other(
     gpu: &Gpu,
     scene: &'static str,
-    ours: &'static str,
-    theirs: &'static str,
+    ours: &Setting,
+    theirs: &Setting,
 ) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    if [ours, theirs].iter().any(|method| refusal_of(method, &room.scene.scene).is_some()) {
+    let is_refused =
+        |entrant: &Setting| refusal_of(entrant.method.name, &room.scene.scene).is_some();
+    if is_refused(ours) || is_refused(theirs) {
         // There is one picture at most; that the other is refused is tested with the oracle.
         return Ok(());
     }
     let (first, second) = (picture(gpu, scene, ours)?, picture(gpu, scene, theirs)?);
-    pass(&room.exam.compare((&first, promise_of(ours)), (&second, promise_of(theirs))))
+    let promise = |entrant| Terms::of_setting(entrant).promise;
+    pass(&room.exam.compare((&first, promise(ours)), (&second, promise(theirs))))
 }

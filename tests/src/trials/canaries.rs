@@ -8,7 +8,7 @@ use metaball_core::{Hit, Scene};
 
 use super::agreement::pass;
 use super::gallery::{picture, room};
-use super::{SIZE, draw, on_gpu, renderer};
+use super::{SIZE, draw, on_gpu, preset, renderer};
 
 /// The method whose picture is spoilt, and a scene with enough in it to spoil.
 const METHOD: &str = "fbvh";
@@ -54,7 +54,7 @@ pub(super) fn rejects_spoilt(
     spoil: Spoil,
 ) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    let mut hits = picture(gpu, scene, method)?.to_vec();
+    let mut hits = picture(gpu, scene, &preset(method)?)?.to_vec();
     pass(&room.exam.judge(&hits, &terms_of(method)))?;
     spoil(&mut hits);
     match pass(&room.exam.judge(&hits, &terms_of(method))) {
@@ -84,7 +84,7 @@ fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
 
 fn rejects_between_methods(gpu: &Gpu) -> Result<(), Failed> {
     let room = room(gpu, SCENE)?;
-    let hits = picture(gpu, SCENE, METHOD)?;
+    let hits = picture(gpu, SCENE, &preset(METHOD)?)?;
     let promise = promise_of(METHOD);
     pass(&room.exam.compare((&hits, promise), (&hits, promise)))?;
     let mut shifted = hits.to_vec();

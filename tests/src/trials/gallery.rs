@@ -6,12 +6,13 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use bench_scenes::BenchScene;
 use harness::judge::Exam;
+use harness::settings::Setting;
 use libtest_mimic::Failed;
 use metaball_core::gpu::{Frame, Gpu, Targets};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, View};
 
-use super::{draw, load, renderer, view_of};
+use super::{draw, load, view_of};
 
 /// A scene in its view, with the truth about every ray.
 pub(super) struct Room {
@@ -40,12 +41,12 @@ pub(super) fn room(gpu: &Gpu, scene: &'static str) -> Result<Arc<Room>, Failed> 
 pub(super) fn picture(
     gpu: &Gpu,
     scene: &'static str,
-    method: &'static str,
+    setting: &Setting,
 ) -> Result<Arc<Vec<Hit>>, Failed> {
-    static PICTURES: Shelf<(&'static str, &'static str), Vec<Hit>> = Shelf::new();
+    static PICTURES: Shelf<(&'static str, String), Vec<Hit>> = Shelf::new();
     let room = room(gpu, scene)?;
-    PICTURES.get((scene, method), || {
-        let mut renderer = renderer(method)?;
+    PICTURES.get((scene, setting.name.clone()), || {
+        let mut renderer = setting.renderer(false);
         let picture = draw(gpu, renderer.as_mut(), &room.scene.scene, &room.view)?;
         if picture.rays != room.exam.rays() {
             return Err("two frames of one view have different rays".into());

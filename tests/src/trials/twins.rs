@@ -9,7 +9,7 @@ use metaball_core::gpu::Gpu;
 
 use super::agreement::pass;
 use super::gallery::{picture, room};
-use super::{on_gpu, scenes};
+use super::{on_gpu, preset, scenes};
 
 pub(super) fn trials() -> Vec<Trial> {
     let traced = METHODS.iter().filter(|method| tree_options(method.name).is_some());
@@ -31,5 +31,6 @@ fn hit_for_hit(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(
     let hits = tracer.first_hits(room.exam.rays());
     pass(&room.exam.judge(&hits, &terms_of(method)))?;
     let promise = promise_of(method);
-    pass(&room.exam.compare((&hits, promise), (&picture(gpu, scene, method)?, promise)))
+    let picture = picture(gpu, scene, &preset(method)?)?;
+    pass(&room.exam.compare((&hits, promise), (&picture, promise)))
 }
