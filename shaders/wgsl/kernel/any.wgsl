@@ -44,6 +44,14 @@ fn power(v: f32, n: u32) -> f32 {
     return product;
 }
 
+// |d2k/dt2| R^2 along any line is nowhere more.
+fn greatest_bend() -> f32 {
+    if kernel_read.family == POWER {
+        return select(f32(4u * exponent() * (exponent() - 1u)), 1e9, exponent() == 1u);
+    }
+    return 6.0;
+}
+
 // The greatest slope between two values of v: Perlin's peaks at rho = 1/3, the others grow with v.
 fn steepest_slope(least: f32, most: f32) -> f32 {
     const PEAK: f32 = 8.0 / 9.0;

@@ -31,7 +31,7 @@ fn power(v: f32, n: u32) -> f32 {
 // 4 alpha (alpha - 1) v^(alpha - 2) (1 - v) less that elsewhere. With alpha = 1 the slope jumps
 // at the rim: a number so large that it allows for nothing.
 fn greatest_bend() -> f32 {
-    return select(f32(4u * exponent * (exponent - 1u)), 1e9, exponent == 1u);
+    return select(f32(4u * exponent() * (exponent() - 1u)), 1e9, exponent() == 1u);
 }
 
 // The greatest slope between two values of v: the slope grows with v.
