@@ -110,7 +110,11 @@ impl RasterPass<'_> {
         spec: &Specialization,
     ) -> Result<wgpu::RenderPipeline, RenderError> {
         let shader = Shader::new(gpu, self.module, self.module, spec)?;
-        let options = wgpu::PipelineCompilationOptions::default();
+        let constants = shader.constants(spec, &[]);
+        let options = wgpu::PipelineCompilationOptions {
+            constants: &constants,
+            ..wgpu::PipelineCompilationOptions::default()
+        };
         let targets: Vec<_> = self.color.map(|format| Some(format.into())).into_iter().collect();
         gpu.checked(|| {
             gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

@@ -7,9 +7,9 @@ use crate::{Aabb, Color, Kernel, Metaball, Support};
 
 /// Balls, their kernel and the threshold T: the surface is where the field equals T.
 ///
-/// Renderers are made for what all balls have in common: a scene in which every strength is 1 keeps
-/// no strengths, one without colours keeps no colours, and neither reaches a shader, nor does a radius
-/// for each ball where there is but one. [`Scene::generalized`] undoes that.
+/// Renderers are made for what all balls have in common: a scene in which every strength is 1 keeps no
+/// strengths, one without colours keeps no colours, and neither reaches a shader; one radius, like the
+/// kernel, is compiled in. [`Scene::generalized`] undoes that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     supports: Vec<Support>,

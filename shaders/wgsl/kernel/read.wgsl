@@ -13,4 +13,4 @@ const POWER: u32 = 0u;
 const WYVILL: u32 = 1u;
 const PERLIN: u32 = 2u;
 
-@group(1) @binding(5) var<uniform> kernel_read: KernelRead;
+@group(1) @binding(4) var<uniform> kernel_read: KernelRead;

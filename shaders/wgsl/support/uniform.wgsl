@@ -1,14 +1,14 @@
-// A scene whose balls all have one radius: twelve bytes a ball.
+// A scene whose balls all have one radius, which the shader is compiled for.
 #define_import_path metaball::support
 
 #import metaball::scene::Support
 
-// An array of three is aligned to four bytes, a vec3 to sixteen.
-@group(1) @binding(0) var<storage, read> centers: array<array<f32, 3>>;
-// Scene units.
-@group(1) @binding(4) var<uniform> common_radius: f32;
+// Scene units. Of the ids that metaball-core sets.
+@id(3) override compiled_radius: f32;
+
+// Centre and radius of each ball. Twelve bytes a ball would be three loads.
+@group(1) @binding(0) var<storage, read> supports: array<vec4<f32>>;
 
 fn support_of(ball: u32) -> Support {
-    let center = centers[ball];
-    return Support(vec3(center[0], center[1], center[2]), common_radius);
+    return Support(supports[ball].xyz, compiled_radius);
 }

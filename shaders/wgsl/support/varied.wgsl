@@ -3,8 +3,10 @@
 
 #import metaball::scene::Support
 
-@group(1) @binding(0) var<storage, read> supports: array<Support>;
+// Centre and radius of each ball in one vector: one load.
+@group(1) @binding(0) var<storage, read> supports: array<vec4<f32>>;
 
 fn support_of(ball: u32) -> Support {
-    return supports[ball];
+    let support = supports[ball];
+    return Support(support.xyz, support.w);
 }

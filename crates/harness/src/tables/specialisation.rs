@@ -179,7 +179,7 @@ mod tests {
         Order { scenes: Vec::new(), extent, size: None, adapter, out: PathBuf::new() }.bouts()
     }
 
-    /// Every form draws the same, and takes more code and more memory than the specialised one.
+    /// No form takes less memory than the specialised one; all of them together take more, and more code.
     #[test]
     fn a_quick_run_fills_every_row() {
         let Some(gpu) = Gpu::for_test() else { return };
@@ -192,11 +192,11 @@ mod tests {
             let (least, most) = (measured[0], measured[FORMS.len() - 1]);
             assert_eq!((least.times.median, least.differing_pixels), (1.0, 0));
             for form in &measured[1..] {
-                assert!(form.device_bytes > least.device_bytes, "{outcome:?}");
+                assert!(form.device_bytes >= least.device_bytes, "{outcome:?}");
                 assert!(form.device_bytes <= most.device_bytes, "{outcome:?}");
                 assert_eq!(form.frame_ms.samples.len(), 2);
             }
-            assert!(most.code > least.code, "{outcome:?}");
+            assert!(most.code > least.code && most.device_bytes > least.device_bytes);
         }
         let text = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&text).expect("as written");

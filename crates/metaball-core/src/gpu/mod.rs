@@ -10,7 +10,7 @@
 //! | made once a | held by | cost |
 //! | --- | --- | --- |
 //! | process | [`Gpu`] | tens of milliseconds |
-//! | scene and [`Specialization`] | the method, its pipelines and [`SceneBuffers`] | composing and compiling shaders, tens of milliseconds a pipeline, and the upload: 12 to 24 bytes a ball |
+//! | scene and [`Specialization`] | the method, its pipelines and [`SceneBuffers`] | composing and compiling shaders, tens of milliseconds a pipeline, and the upload: 16 to 24 bytes a ball |
 //! | image size | [`Targets`] | 32 bytes a pixel; 4 more with colours, 28 more with work counters |
 //! | view | [`Frame`] | the pass `rays`, and what the method records |
 //!

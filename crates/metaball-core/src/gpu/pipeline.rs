@@ -13,6 +13,9 @@ use crate::{Kernel, KernelForm, Scene};
 /// shared modules; methods number theirs from 16.
 const EXPONENT: &str = "0";
 
+/// The same in `support/uniform.wgsl`.
+const RADIUS: &str = "3";
+
 /// What selects pipelines: all that shaders are specialised for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Specialization {
@@ -20,8 +23,8 @@ pub struct Specialization {
     pub kernel: Kernel,
     /// How much of it shaders are compiled for.
     pub kernel_form: KernelForm,
-    /// Whether balls have radii of their own.
-    pub radii: bool,
+    /// Bits of the support radius that all balls have; `None` where they have radii of their own.
+    pub radius_bits: Option<u32>,
     /// Whether balls have strengths of their own.
     pub strengths: bool,
     /// Whether balls have colours.
@@ -38,7 +41,7 @@ impl Specialization {
         Self {
             kernel: scene.kernel(),
             kernel_form: scene.kernel_form(),
-            radii: scene.common_radius().is_none(),
+            radius_bits: scene.common_radius().map(f32::to_bits),
             strengths: scene.strengths().is_some(),
             colors: scene.colors().is_some(),
             counting,
@@ -51,7 +54,7 @@ impl Specialization {
         Self {
             kernel: Kernel::QUARTIC,
             kernel_form: KernelForm::Known,
-            radii: false,
+            radius_bits: None,
             strengths: false,
             colors: false,
             counting: false,
@@ -75,7 +78,7 @@ impl Specialization {
                 (_, Kernel::Wyvill) => KernelModule::Wyvill,
                 (_, Kernel::Perlin) => KernelModule::Perlin,
             },
-            radii: self.radii,
+            radii: self.radius_bits.is_none(),
             strengths: self.strengths,
             colors: self.colors,
             counting: self.counting,
@@ -85,10 +88,12 @@ impl Specialization {
 
     /// Override constants by id.
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
-        match self.kernel {
-            Kernel::Power(exponent) => vec![(EXPONENT, f64::from(exponent.get()))],
-            Kernel::Wyvill | Kernel::Perlin => Vec::new(),
-        }
+        let exponent = match self.kernel {
+            Kernel::Power(exponent) => Some((EXPONENT, f64::from(exponent.get()))),
+            Kernel::Wyvill | Kernel::Perlin => None,
+        };
+        let radius = self.radius_bits.map(|bits| (RADIUS, f64::from(f32::from_bits(bits))));
+        exponent.into_iter().chain(radius).collect()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::{Kernel, KernelForm, Scene};
 
 /// What a scene needs on the device, once for all methods: group 1 of their pipelines.
 ///
-/// 12 bytes a ball; 4 more where radii vary, 4 where strengths do, 4 where there are colours.
+/// 16 bytes a ball; 4 more where strengths vary, 4 more where there are colours.
 #[derive(Debug)]
 pub struct SceneBuffers {
     bind_group: wgpu::BindGroup,
@@ -54,18 +54,7 @@ impl SceneBuffers {
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, RenderError> {
         let none = wgpu::BufferUsages::empty();
         let uniform = wgpu::BufferUsages::UNIFORM;
-        let radius = scene
-            .common_radius()
-            .map(|radius| gpu.upload("common radius", &[radius], uniform))
-            .transpose()?;
-        let balls = match &radius {
-            Some(_) => {
-                let centers: Vec<_> =
-                    scene.supports().iter().map(|support| support.center).collect();
-                gpu.upload("centres", &centers, none)?
-            }
-            None => gpu.upload("support spheres", scene.supports(), none)?,
-        };
+        let supports = gpu.upload("support spheres", scene.supports(), none)?;
         let kernel = (scene.kernel_form() != KernelForm::Known)
             .then(|| gpu.upload("kernel", &[KernelRead::from(scene.kernel())], uniform))
             .transpose()?;
@@ -78,11 +67,10 @@ impl SceneBuffers {
             uniform,
         )?;
 
-        let mut buffers = vec![(0, &balls), (3, &header)];
+        let mut buffers = vec![(0, &supports), (3, &header)];
         buffers.extend(strengths.as_ref().map(|buffer| (1, buffer)));
         buffers.extend(colors.as_ref().map(|buffer| (2, buffer)));
-        buffers.extend(radius.as_ref().map(|buffer| (4, buffer)));
-        buffers.extend(kernel.as_ref().map(|buffer| (5, buffer)));
+        buffers.extend(kernel.as_ref().map(|buffer| (4, buffer)));
         let layout = scene_layout(gpu, &Specialization::of(scene, false));
         let bind_group = gpu.checked(|| group(gpu, "scene", &layout, &buffers))?;
         let bytes = buffers.iter().map(|(_, buffer)| buffer.size()).sum();
@@ -105,7 +93,6 @@ pub fn scene_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
     let mut bindings = vec![(0, Binding::Read), (3, Binding::Uniform)];
     bindings.extend(spec.strengths.then_some((1, Binding::Read)));
     bindings.extend(spec.colors.then_some((2, Binding::Read)));
-    bindings.extend((!spec.radii).then_some((4, Binding::Uniform)));
-    bindings.extend((spec.kernel_form != KernelForm::Known).then_some((5, Binding::Uniform)));
+    bindings.extend((spec.kernel_form != KernelForm::Known).then_some((4, Binding::Uniform)));
     layout(gpu, "scene", &bindings)
 }

@@ -167,11 +167,9 @@ impl Bout {
             progress.advance(1);
         }
         for view in &views {
-            for drawer in &mut drawers {
-                if let Ok(Drawer { contender, targets, frame_ms, .. }) = drawer {
-                    let report = contender.draw(gpu, targets, view)?;
-                    frame_ms.push(milliseconds(report.wall));
-                }
+            for Drawer { contender, targets, frame_ms, .. } in drawers.iter_mut().flatten() {
+                let report = contender.draw(gpu, targets, view)?;
+                frame_ms.push(milliseconds(report.wall));
             }
             progress.advance(1);
         }
