@@ -31,6 +31,7 @@ pub mod measure;
 pub mod methods;
 pub mod numbers;
 pub mod output;
+mod page;
 pub mod picture;
 pub mod plot;
 pub mod record;

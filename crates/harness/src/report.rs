@@ -6,11 +6,11 @@ use std::path::Path;
 use crate::conclusions::conclusions;
 use crate::contest::{Contest, Pictures};
 use crate::heat::{AMBIGUOUS, ERROR_RANGE, MISS, NOT_COMPARED, SCALE, UNDECIDED, WRONG};
-use crate::html::{base64, escape, fill};
-use crate::machine::Provenance;
+use crate::html::{base64, escape};
 use crate::methods;
 use crate::numbers::{decimal, grouped, small};
 use crate::output::write_atomically;
+use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
 use crate::record::{Measured, Record, Records};
 
 /// Writes the page about contests and their records.
@@ -31,14 +31,13 @@ fn page(records: &Records, contests: &[Contest], remarks: &[String]) -> String {
     let rows: String = contests.iter().map(table_rows).collect();
     let scenes: String = contests.iter().map(scene_section).collect();
     let parts = [
-        ("style", STYLE.to_owned()),
         ("conclusions", sentences(contests)),
         ("facts", facts(records)),
         ("remarks", remark_paragraphs(remarks)),
         ("rows", rows),
         ("scenes", scenes),
     ];
-    fill(include_str!("report.html"), &parts)
+    page::page("Metaball ray casters compared", include_str!("report.html"), &parts)
 }
 
 /// Which method to use for what.
@@ -47,45 +46,11 @@ fn sentences(contests: &[Contest]) -> String {
     conclusion_paragraphs(&conclusions(&records))
 }
 
-/// What a page says first.
-pub(crate) fn conclusion_paragraphs(sentences: &[String]) -> String {
-    sentences.iter().map(|text| format!("<p class=\"conclusion\">{}</p>\n", escape(text))).collect()
-}
-
-/// The look of all pages.
-pub(crate) const STYLE: &str = include_str!("style.css");
-
 fn facts(records: &Records) -> String {
-    let mut facts = provenance(&records.provenance);
-    if let Some(record) = records.records.first() {
-        let adapter = &record.adapter;
-        let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
-        facts += &fact("Adapter", &escape(&adapter));
-        facts += &fact("Picture", &format!("{} × {} pixels", record.width, record.height));
-    }
-    facts
-}
-
-/// Where the numbers of a page come from.
-pub(crate) fn provenance(provenance: &Provenance) -> String {
-    let Provenance { command, commit, machine, .. } = provenance;
-    let memory = machine.memory_bytes.map_or_else(String::new, |bytes| {
-        format!(", {:.0} GiB", bytes as f64 / f64::from(1 << 30))
-    });
-    let machine = format!("{}, {} cores{memory}; {}", machine.cpu, machine.cores, machine.os);
-    fact("Command", &format!("<code>{}</code>", escape(command)))
-        + &fact("Commit", &format!("<code>{}</code>", escape(commit)))
-        + &fact("Machine", &escape(&machine))
-}
-
-/// A line of a list of facts; both parts are HTML.
-pub(crate) fn fact(term: &str, text: &str) -> String {
-    format!("<dt>{term}</dt><dd>{text}</dd>\n")
-}
-
-/// What a reader should know first.
-pub(crate) fn remark_paragraphs(remarks: &[String]) -> String {
-    remarks.iter().map(|text| format!("<p class=\"remark\">{}</p>\n", escape(text))).collect()
+    let first = records.records.first();
+    let size = first.map(|record| format!("{} × {} pixels", record.width, record.height));
+    run_facts(&records.provenance, first.map(|record| &record.adapter))
+        + &size.map_or_else(String::new, |size| fact("Picture", &size))
 }
 
 fn table_rows(contest: &Contest) -> String {
@@ -239,6 +204,7 @@ fn dash() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::Provenance;
 
     #[test]
     fn a_page_needs_nothing_else_and_trusts_no_name() {

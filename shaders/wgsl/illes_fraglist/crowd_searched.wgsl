@@ -45,8 +45,10 @@ fn search_crowd(
     var width = support_of_rank(lists::rank_at(head)).radius;
     while *position < limit && budget::can_go_on() {
         let start = *position;
-        // However short, a stretch reaches the next float.
-        let end = min(max(start + width, start * 1.0000002), limit);
+        // However short, a stretch reaches the next float, and no further: two floats on, a separator
+        // may lie between, and no stretch before it would ever end there.
+        let next = bitcast<f32>(bitcast<u32>(start) + 1u);
+        let end = min(max(start + width, next), limit);
         let stretch = look_at_stretch(head, direction, start, end);
         if stretch.bound >= scene.threshold {
             if stretch.separator < end {

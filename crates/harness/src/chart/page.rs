@@ -8,22 +8,19 @@ use super::plan::Purpose;
 use super::shortlist;
 use super::{Chart, Group};
 use crate::conclusions::conclusions;
-use crate::html::{escape, fill};
+use crate::html::escape;
 use crate::machine::has_little_raster;
 use crate::methods::{METHODS, find};
 use crate::numbers::{decimal, grouped, small};
+use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
 use crate::plot::{Axis, Kind, Look, Mark, Plot, Scale, Series};
 use crate::record::{Measured, Record};
-use crate::report::{STYLE, conclusion_paragraphs, fact, provenance, remark_paragraphs};
 use crate::settings::label;
 use crate::stats::exponent;
 
 /// The page.
 pub(super) fn page(chart: &Chart) -> String {
-    let adapter = &chart.adapter;
-    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
-    let facts = provenance(&chart.provenance)
-        + &fact("Adapter", &escape(&adapter))
+    let facts = run_facts(&chart.provenance, Some(&chart.adapter))
         + &fact("Picture", &format!("{} × {} pixels", chart.width, chart.height));
     let mut remarks = chart.remarks.clone();
     if has_little_raster(&chart.adapter.name) {
@@ -35,7 +32,6 @@ pub(super) fn page(chart: &Chart) -> String {
     let sentences = conclusion_paragraphs(&conclusions(&chart.contests()));
     let errors = of(chart, &Purpose::Error).map(error_section).collect();
     let parts = [
-        ("style", STYLE.to_owned()),
         ("conclusions", sentences),
         ("facts", facts),
         ("remarks", remark_paragraphs(&remarks)),
@@ -46,7 +42,7 @@ pub(super) fn page(chart: &Chart) -> String {
         ("claim", claim_section(chart)),
         ("shortlist", shortlist_section(chart)),
     ];
-    fill(include_str!("page.html"), &parts)
+    page::page("Error against time", include_str!("page.html"), &parts)
 }
 
 const LITTLE_RASTER: &str = "This chip computes and hardly rasterises: the times of depth peeling and \

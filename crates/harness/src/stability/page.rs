@@ -7,26 +7,23 @@ use bench_scenes::Case;
 use super::cell::{Cell, Outcome};
 use super::patience::PATIENCE_S;
 use super::record::{Limit, Stability};
-use crate::html::{escape, fill};
+use crate::html::escape;
 use crate::numbers::small;
-use crate::report::{STYLE, fact, provenance, remark_paragraphs};
+use crate::page::{self, remark_paragraphs, run_facts};
 use crate::settings::Setting;
 
 /// The page; needs no other file and no network.
 pub(super) fn page(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
-    let adapter = &stability.adapter;
-    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
     let sections: String = cases.iter().map(|case| section(stability, case, entrants)).collect();
     let parts = [
-        ("style", STYLE.to_owned()),
-        ("facts", provenance(&stability.provenance) + &fact("Adapter", &escape(&adapter))),
+        ("facts", run_facts(&stability.provenance, Some(&stability.adapter))),
         ("remarks", remark_paragraphs(&remarks(stability))),
         ("legend", legend()),
         ("matrix", matrix(stability, cases, entrants)),
         ("cases", sections),
         ("notes", notes(stability)),
     ];
-    fill(include_str!("page.html"), &parts)
+    page::page("Where metaball ray casters fail", include_str!("page.html"), &parts)
 }
 
 /// How the outcomes stand to the table of stated limits.

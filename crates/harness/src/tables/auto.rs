@@ -4,9 +4,7 @@
 mod page;
 pub mod study;
 
-use std::path::PathBuf;
-
-use metaball_core::gpu::{AdapterChoice, Gpu};
+use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
 use self::study::{Outcome, Study, Verdict};
@@ -18,69 +16,43 @@ use crate::output::{write_atomically, write_json};
 use crate::record::Adapter;
 use crate::settings::Setting;
 use crate::settings::sweeps::candidates;
+use crate::tables::{Extent, Order, named_or};
 
 /// Name and version of the format of `auto.json`.
 pub const SCHEMA: &str = "metaball-tables-auto/1";
 
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// Two scenes of a few hundred balls, 48 × 36 pixels, three candidates.
-    Quick,
-    /// Eight scenes, 320 × 240 pixels, all candidates.
-    Whole,
-}
-
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Order {
-    /// What [`bench_scenes::load`] takes; the extent's own where empty.
-    pub scenes: Vec<String>,
-    /// How much.
-    pub extent: Extent,
-    /// Pixels across and down; the extent's own where left open.
-    pub size: Option<(u32, u32)>,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
-    /// Folder for `auto.json` and `auto.html`.
-    pub out: PathBuf,
-}
-
 /// Errors that are asked for, mean support radii: the default of `auto`, and one that cubics may keep.
 const ERRORS: [f64; 2] = [MAX_ERROR, 0.05];
 
-impl Order {
-    fn studies(&self) -> Vec<Study> {
-        let (scenes, size): (&[&str], _) = match self.extent {
-            Extent::Quick => (&["random-200", "two-merging"], (48, 36)),
-            Extent::Whole => (
-                &[
-                    "molecule",
-                    "scattered-30k",
-                    "tornado-4k",
-                    "dam-break",
-                    "random-1k",
-                    "fountain:20000",
-                    "two-merging",
-                    "pool:3000",
-                ],
-                (320, 240),
-            ),
-        };
-        let own = scenes.iter().map(|&spec| spec.to_owned());
-        let specs = if self.scenes.is_empty() { own.collect() } else { self.scenes.clone() };
-        let size = self.size.unwrap_or(size);
-        specs.into_iter().map(|spec| Study { spec, size, errors: &ERRORS }).collect()
-    }
+/// `scenes`, or the extent's own where there are none.
+fn studies(order: &Order, scenes: &[String]) -> Vec<Study> {
+    let (own, size): (&[&str], _) = match order.extent {
+        Extent::Quick => (&["random-200", "two-merging"], (48, 36)),
+        Extent::Whole => (
+            &[
+                "molecule",
+                "scattered-30k",
+                "tornado-4k",
+                "dam-break",
+                "random-1k",
+                "fountain:20000",
+                "two-merging",
+                "pool:3000",
+            ],
+            (320, 240),
+        ),
+    };
+    let size = order.size.unwrap_or(size);
+    let study = |spec| Study { spec, size, errors: &ERRORS };
+    named_or(scenes, own).into_iter().map(study).collect()
+}
 
-    /// Who can be chosen.
-    fn candidates(&self) -> Vec<Setting> {
-        const FEW: [&str; 4] = ["fbvh-certified", "illes", "illes, array 24", "illes-exact"];
-        let takes_part = |setting: &Setting| {
-            self.extent == Extent::Whole || FEW.contains(&setting.name.as_str())
-        };
-        candidates().into_iter().filter(takes_part).collect()
-    }
+/// Who can be chosen.
+fn settings(extent: Extent) -> Vec<Setting> {
+    const FEW: [&str; 4] = ["fbvh-certified", "illes", "illes, array 24", "illes-exact"];
+    let takes_part =
+        |setting: &Setting| extent == Extent::Whole || FEW.contains(&setting.name.as_str());
+    candidates().into_iter().filter(takes_part).collect()
 }
 
 /// The whole file.
@@ -97,14 +69,15 @@ pub struct Measurements {
     pub scenes: Vec<Outcome>,
 }
 
-/// Measures, prints the table, and writes it.
+/// Measures, prints the table, and writes `auto.html` and `auto.json`. Scenes are what
+/// [`bench_scenes::load`] takes; without any there are eight.
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order) -> anyhow::Result<()> {
+pub fn tables(order: &Order, scenes: &[String]) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, &order.studies(), &order.candidates());
+    let measurements = measure(&gpu, &studies(order, scenes), &settings(order.extent));
     console::line(&console::table(&HEADINGS, &rows(&measurements.scenes)));
     for remark in &measurements.remarks {
         console::line(remark);
@@ -213,34 +186,32 @@ fn row(scene: &str, verdict: &Verdict) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use metaball_core::gpu::AdapterChoice;
+
     use super::*;
 
-    fn order(scenes: &[&str]) -> Order {
-        Order {
-            scenes: scenes.iter().map(|&scene| scene.to_owned()).collect(),
-            extent: Extent::Quick,
-            size: None,
-            adapter: AdapterChoice::Environment,
-            out: PathBuf::new(),
-        }
+    fn order(extent: Extent) -> Order {
+        Order { extent, size: None, adapter: AdapterChoice::Environment, out: PathBuf::new() }
     }
 
     #[test]
     fn all_scenes_load_and_candidates_are_known() {
-        for study in order(&[]).studies() {
+        for study in studies(&order(Extent::Quick), &[]) {
             study.load().expect("loads");
         }
-        let whole = Order { extent: Extent::Whole, ..order(&[]) };
-        assert!(whole.studies().len() >= 6);
-        assert_eq!(whole.candidates().len(), candidates().len());
-        assert_eq!(order(&[]).candidates().len(), 4);
+        assert!(studies(&order(Extent::Whole), &[]).len() >= 6);
+        assert_eq!(settings(Extent::Whole).len(), candidates().len());
+        assert_eq!(settings(Extent::Quick).len(), 4);
     }
 
     #[test]
     fn a_quick_study_is_whole() {
         let Some(gpu) = Gpu::for_test() else { return };
-        let order = order(&["random-200", "nowhere.toml"]);
-        let measurements = measure(&gpu, &order.studies(), &order.candidates());
+        let scenes = ["random-200", "nowhere.toml"].map(str::to_owned);
+        let studies = studies(&order(Extent::Quick), &scenes);
+        let measurements = measure(&gpu, &studies, &settings(Extent::Quick));
         let [studied, missing] = &measurements.scenes[..] else { panic!("two scenes") };
         assert!(missing.result.is_err());
         let measured = studied.result.as_ref().expect("measured");

@@ -8,12 +8,11 @@ pub mod paper;
 pub mod run;
 mod text;
 
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use bench_scenes::{BenchScene, Overrides, load};
 use metaball_core::Kernel;
-use metaball_core::gpu::{AdapterChoice, Gpu};
+use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
 use self::growth::{Growth, growth};
@@ -25,34 +24,10 @@ use crate::machine::Provenance;
 use crate::numbers::{decimal, grouped};
 use crate::output::{write_atomically, write_json};
 use crate::record::Adapter;
+use crate::tables::{Extent, Order};
 
 /// Name and version of the format of `illes.json`.
 pub const SCHEMA: &str = "metaball-tables-illes/1";
-
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// As much of the paper's table as ten minutes allow.
-    Default,
-    /// All of it, however long it takes.
-    Full,
-    /// Hundreds of particles in the place of the paper's, to see that everything works.
-    Quick,
-}
-
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Order {
-    /// How much.
-    pub extent: Extent,
-    /// Pixels across and down of table 1; the paper's 1024 × 768 where it is left open, 64 × 48 when
-    /// quick.
-    pub size: Option<(u32, u32)>,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
-    /// Folder for `illes.json` and `illes.html`.
-    pub out: PathBuf,
-}
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -100,9 +75,6 @@ pub struct Row {
     pub why: Option<String>,
 }
 
-/// Time that the default extent may take.
-const DEFAULT_TIME: Duration = Duration::from_secs(600);
-
 /// The numbers of an extent.
 struct Plan {
     particles: Vec<usize>,
@@ -129,7 +101,7 @@ impl Plan {
                 mud: 800,
                 view_size: (40, 30),
             },
-            Extent::Default | Extent::Full => Self {
+            Extent::Whole => Self {
                 particles: of_paper(),
                 size: order.size.unwrap_or((1024, 768)),
                 frames: 3,
@@ -143,14 +115,14 @@ impl Plan {
     }
 }
 
-/// Measures, prints the tables, and writes them.
+/// Measures, prints the tables, and writes `illes.html` and `illes.json`. Rows of table 1 that do not fit
+/// into `time` are named.
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order) -> anyhow::Result<()> {
+pub fn tables(order: &Order, time: Option<Duration>) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
-    let time = (order.extent == Extent::Default).then_some(DEFAULT_TIME);
     let measurements = measure(&gpu, &Plan::new(order), time)?;
     console::line(&text::text(&measurements));
     let page = order.out.join("illes.html");
@@ -323,6 +295,10 @@ fn explain(run: &Run, paper: &Phases, software: bool) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use metaball_core::gpu::AdapterChoice;
+
     use super::kernels::Outcome;
     use super::*;
 

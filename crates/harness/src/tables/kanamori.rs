@@ -7,33 +7,22 @@ pub mod plan;
 pub mod run;
 pub mod settings;
 
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use metaball_core::gpu::{AdapterChoice, Gpu};
+use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
-use self::plan::{Bout, Extent, Part};
+use self::plan::{Bout, Part};
 use self::run::{GpuRun, Measured, Outcome, Run};
 use crate::console::{self, Progress};
 use crate::machine::Provenance;
 use crate::numbers::{decimal, small};
 use crate::output::{write_atomically, write_json};
 use crate::record::Adapter;
+use crate::tables::{Extent, Order};
 
 /// Name and version of the format of `kanamori.json`.
 pub const SCHEMA: &str = "metaball-tables-kanamori/1";
-
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Order {
-    /// How much.
-    pub extent: Extent,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
-    /// Folder for `kanamori.json` and `kanamori.html`.
-    pub out: PathBuf,
-}
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -49,18 +38,15 @@ pub struct Measurements {
     pub bouts: Vec<Outcome>,
 }
 
-/// Measures, prints the tables, and writes them.
+/// Measures, prints the tables, and writes `kanamori.html` and `kanamori.json`. What does not fit into
+/// `time` is named.
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order) -> anyhow::Result<()> {
+pub fn tables(order: &Order, time: Option<Duration>) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
-    let room = match order.extent {
-        Extent::Usual => TEN_MINUTES,
-        Extent::Quick | Extent::Full => Duration::MAX,
-    };
-    let measurements = measure(&gpu, order.extent, room);
+    let measurements = measure(&gpu, order, time.unwrap_or(Duration::MAX));
     for part in Part::ALL {
         console::line(&format!("\n{}", part.title()));
         console::line(&console::table(&HEADINGS, &rows(part, &measurements.bouts)));
@@ -74,13 +60,10 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What the command takes unless it is told to be quick or to do everything.
-const TEN_MINUTES: Duration = Duration::from_secs(600);
-
-fn measure(gpu: &Gpu, extent: Extent, room: Duration) -> Measurements {
-    let bouts = extent.bouts();
+fn measure(gpu: &Gpu, order: &Order, room: Duration) -> Measurements {
+    let bouts = plan::bouts(order.extent, order.size);
     let mut remarks = Vec::new();
-    if extent == Extent::Quick {
+    if order.extent == Extent::Quick {
         remarks.push("Quick: small scenes and pictures in the place of the paper's.".to_owned());
     }
     if gpu.report().is_software() {
@@ -239,14 +222,21 @@ fn cells(
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use metaball_core::gpu::AdapterChoice;
+
     use super::*;
+    use crate::tables::TEN_MINUTES;
 
     /// Everything is measured, the published variant errs no more than the paper's, and the page
     /// stands alone.
     #[test]
     fn a_quick_run_fills_every_row() {
         let Some(gpu) = Gpu::for_test() else { return };
-        let measurements = measure(&gpu, Extent::Quick, Duration::MAX);
+        let (extent, adapter) = (Extent::Quick, AdapterChoice::Environment);
+        let order = Order { extent, size: None, adapter, out: PathBuf::new() };
+        let measurements = measure(&gpu, &order, Duration::MAX);
         for part in Part::ALL {
             let mut bouts = measurements.bouts.iter().filter(|bout| bout.part == part);
             let first = bouts.next().expect("each part has a bout");
@@ -277,7 +267,7 @@ mod tests {
     /// What does not fit says so, in its row and on the page.
     #[test]
     fn what_is_left_out_is_named() {
-        let bout = Extent::Full.bouts().pop().expect("there are bouts");
+        let bout = plan::bouts(Extent::Whole, None).pop().expect("there are bouts");
         let clock = |room, pace| Clock { begun: Instant::now(), room, pace };
         assert_eq!(clock(Duration::MAX, Some(1.0)).refusal(&bout), None);
         assert_eq!(clock(TEN_MINUTES, None).refusal(&bout), None);

@@ -16,18 +16,10 @@ use crate::console::{self, Progress};
 use crate::machine::Provenance;
 use crate::numbers::{decimal, grouped, small};
 use crate::output::{write_atomically, write_json};
+use crate::tables::{Extent, named_or};
 
 /// Name and version of the format of `peers.json`.
 pub const SCHEMA: &str = "metaball-tables-peers/1";
-
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// Two scenes of a few hundred balls, 64 × 48 pixels, two rounds.
-    Quick,
-    /// Five scenes of up to 128,000 balls, 640 × 480 pixels, five rounds.
-    Whole,
-}
 
 /// What to measure.
 #[derive(Debug, Clone)]
@@ -52,9 +44,8 @@ impl Order {
                 5,
             ),
         };
-        let own = scenes.iter().map(|&spec| spec.to_owned());
-        let specs = if self.scenes.is_empty() { own.collect() } else { self.scenes.clone() };
         let size = self.size.unwrap_or(size);
+        let specs = named_or(&self.scenes, scenes);
         specs.into_iter().map(|spec| Bout { spec, size, rounds }).collect()
     }
 }

@@ -4,9 +4,7 @@
 mod page;
 pub mod run;
 
-use std::path::PathBuf;
-
-use metaball_core::gpu::{AdapterChoice, Gpu};
+use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
 use self::run::{Bout, Measured, Outcome};
@@ -16,53 +14,24 @@ use crate::methods::{HEADLINERS, Method, find};
 use crate::numbers::{decimal, grouped};
 use crate::output::{write_atomically, write_json};
 use crate::record::Adapter;
+use crate::tables::{Extent, Order, named_or};
 
 /// Name and version of the format of `specialisation.json`.
 pub const SCHEMA: &str = "metaball-tables-specialisation/1";
 
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// One scene of a few hundred balls, 32 × 24 pixels, two rounds.
-    Quick,
-    /// Four scenes of up to 30,720 balls, 160 × 120 pixels, nine rounds.
-    Whole,
-}
-
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Order {
-    /// What [`bench_scenes::load`] takes; the extent's own where empty.
-    pub scenes: Vec<String>,
-    /// How much.
-    pub extent: Extent,
-    /// Pixels across and down; the extent's own where left open.
-    pub size: Option<(u32, u32)>,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
-    /// Folder for `specialisation.json` and `specialisation.html`.
-    pub out: PathBuf,
-}
-
-impl Order {
-    /// Every scene with every published method and the certified tree.
-    fn bouts(&self) -> Vec<Bout> {
-        let (scenes, size, rounds): (&[&str], _, _) = match self.extent {
-            Extent::Quick => (&["scattered:300"], (32, 24), 2),
-            Extent::Whole => {
-                (&["scattered-30k", "tornado-4k", "dam-break", "molecule"], (160, 120), 9)
-            }
-        };
-        let own = || scenes.iter().map(|&spec| spec.to_owned()).collect();
-        let specs = if self.scenes.is_empty() { own() } else { self.scenes.clone() };
-        let size = self.size.unwrap_or(size);
-        let methods: Vec<&Method> = HEADLINERS.iter().filter_map(|name| find(name)).collect();
-        let of_scene = |spec: String| {
-            let bout = move |&method| Bout { spec: spec.clone(), method, size, rounds };
-            methods.iter().map(bout).collect::<Vec<_>>()
-        };
-        specs.into_iter().flat_map(of_scene).collect()
-    }
+/// Every scene with every published method and the certified tree.
+fn bouts(order: &Order, scenes: &[String]) -> Vec<Bout> {
+    let (own, size, rounds): (&[&str], _, _) = match order.extent {
+        Extent::Quick => (&["scattered:300"], (32, 24), 2),
+        Extent::Whole => (&["scattered-30k", "tornado-4k", "dam-break", "molecule"], (160, 120), 9),
+    };
+    let size = order.size.unwrap_or(size);
+    let methods: Vec<&Method> = HEADLINERS.iter().filter_map(|name| find(name)).collect();
+    let of_scene = |spec: String| {
+        let bout = move |&method| Bout { spec: spec.clone(), method, size, rounds };
+        methods.iter().map(bout).collect::<Vec<_>>()
+    };
+    named_or(scenes, own).into_iter().flat_map(of_scene).collect()
 }
 
 /// The whole file.
@@ -81,14 +50,15 @@ pub struct Measurements {
     pub outcomes: Vec<Outcome>,
 }
 
-/// Measures, prints the table, and writes it.
+/// Measures, prints the table, and writes `specialisation.html` and `specialisation.json`. Scenes are
+/// what [`bench_scenes::load`] takes; without any there are four.
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order) -> anyhow::Result<()> {
+pub fn tables(order: &Order, scenes: &[String]) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, &order.bouts())?;
+    let measurements = measure(&gpu, &bouts(order, scenes))?;
     console::line(&console::table(&HEADINGS, &rows(&measurements.outcomes)));
     for remark in &measurements.remarks {
         console::line(&format!("  {remark}"));
@@ -169,6 +139,9 @@ fn numbers(measured: &Measured) -> [String; 6] {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use metaball_core::gpu::AdapterChoice;
     use metaball_core::{Kernel, Metaball, Scene};
 
     use super::run::FORMS;
@@ -176,7 +149,7 @@ mod tests {
 
     fn quick() -> Vec<Bout> {
         let (extent, adapter) = (Extent::Quick, AdapterChoice::Environment);
-        Order { scenes: Vec::new(), extent, size: None, adapter, out: PathBuf::new() }.bouts()
+        bouts(&Order { extent, size: None, adapter, out: PathBuf::new() }, &[])
     }
 
     /// No form takes less memory than the specialised one; all of them together take more, and more code.

@@ -2,36 +2,20 @@
 
 use super::study::{Drawn, Outcome};
 use super::{HEADINGS, Measurements, rows};
-use crate::html::{escape, fill, section};
+use crate::html::{escape, section, table};
 use crate::numbers::{decimal, grouped, small};
-use crate::report::{STYLE, fact, provenance, remark_paragraphs};
+use crate::page::{self, remark_paragraphs, run_facts};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let adapter = &measurements.adapter;
-    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
-    let facts = provenance(&measurements.provenance) + &fact("Adapter", &escape(&adapter));
+    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter));
     let parts = [
-        ("style", STYLE.to_owned()),
         ("facts", facts),
         ("remarks", remark_paragraphs(&measurements.remarks)),
-        ("table", choices(measurements)),
+        ("table", table("Chosen, and best", &HEADINGS, &[0, 2, 4], &rows(&measurements.scenes))),
         ("all", measurements.scenes.iter().map(candidates).collect()),
     ];
-    fill(include_str!("page.html"), &parts)
-}
-
-fn choices(measurements: &Measurements) -> String {
-    let headings: String = HEADINGS.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let row = |cells: Vec<String>| {
-        let cell = |(index, text): (usize, &String)| {
-            let class = if matches!(index, 0 | 2 | 4) { " class=\"text\"" } else { "" };
-            format!("<td{class}>{}</td>", escape(text))
-        };
-        format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
-    };
-    let body: String = rows(&measurements.scenes).into_iter().map(row).collect();
-    section("Chosen, and best", &headings, &body)
+    page::page("No more than a scene needs", include_str!("page.html"), &parts)
 }
 
 /// Every candidate on a scene.

@@ -3,32 +3,33 @@
 use super::compare::{DENSITY_TITLE, Density, Row, Table, WorkRow, find};
 use super::run::Run;
 use super::{DENSITY_HEADINGS, Line, Measurements, Point, density_rows};
-use crate::html::{escape, fill, section};
+use crate::html::{escape, section};
 use crate::numbers::{decimal, grouped};
+use crate::page::{self, fact, remark_paragraphs, run_facts};
 use crate::plot::line_plot;
-use crate::report::{STYLE, fact, provenance, remark_paragraphs};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let adapter = &measurements.adapter;
-    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
     let frames = format!("one from each of {} cameras along the path", measurements.cameras);
-    let facts = fact("Adapter", &escape(&adapter))
+    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter))
         + &fact("Picture", &format!("{} × {} pixels", measurements.width, measurements.height))
         + &fact("Frames", &frames);
     let tables: String =
         measurements.tables.iter().map(|table| rates(table, measurements)).collect();
     let series: String = measurements.series.iter().map(|line| plot(line, measurements)).collect();
     let parts = [
-        ("style", STYLE.to_owned()),
-        ("facts", provenance(&measurements.provenance) + &facts),
+        ("facts", facts),
         ("remarks", remark_paragraphs(&measurements.remarks)),
         (
             "tables",
             tables + &work(&measurements.work_table) + &density(&measurements.density) + &series,
         ),
     ];
-    fill(include_str!("page.html"), &parts)
+    page::page(
+        "The tables of Gourmel et al. 2010, measured anew",
+        include_str!("page.html"),
+        &parts,
+    )
 }
 
 const RUN_HEADINGS: &str = "<th>Build<small>ms</small></th>\

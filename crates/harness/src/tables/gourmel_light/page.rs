@@ -5,26 +5,27 @@ use super::run::{PassKind, Run};
 use super::{
     COST_HEADINGS, COSTS_TITLE, GAIN_HEADINGS, GAINS_TITLE, Measurements, cost_rows, gain_rows,
 };
-use crate::html::{escape, fill, section};
+use crate::html::{escape, section};
 use crate::numbers::decimal;
-use crate::report::{STYLE, fact, provenance, remark_paragraphs};
+use crate::page::{self, fact, remark_paragraphs, run_facts};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let adapter = &measurements.adapter;
-    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
     let frames = format!("one from each of {} cameras along the path", measurements.cameras);
-    let facts = fact("Adapter", &escape(&adapter))
+    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter))
         + &fact("Picture", &format!("{} × {} pixels", measurements.width, measurements.height))
         + &fact("Frames", &frames);
     let gains = table(GAINS_TITLE, &GAIN_HEADINGS, &gain_rows(&measurements.gains));
     let parts = [
-        ("style", STYLE.to_owned()),
-        ("facts", provenance(&measurements.provenance) + &facts),
+        ("facts", facts),
         ("remarks", remark_paragraphs(&measurements.remarks)),
         ("tables", costs(&measurements.costs) + &gains + &runs(&measurements.runs)),
     ];
-    fill(include_str!("page.html"), &parts)
+    page::page(
+        "The effects of Gourmel et al. 2010, measured anew",
+        include_str!("page.html"),
+        &parts,
+    )
 }
 
 fn costs(rows: &[CostRow]) -> String {

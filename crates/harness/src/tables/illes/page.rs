@@ -5,17 +5,15 @@ use super::kernels::{KernelRow, Outcome};
 use super::run::{Phases, Run, SETTINGS};
 use super::text::mebibytes;
 use super::{Measurements, Row, SMALL_ADAPTER};
-use crate::html::{escape, fill, section};
+use crate::html::{escape, section};
 use crate::numbers::{decimal, grouped, small};
+use crate::page::{self, fact, remark_paragraphs, run_facts};
 use crate::plot::line_plot;
-use crate::report::{STYLE, fact, provenance, remark_paragraphs};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let adapter = &measurements.adapter;
-    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
     let (width, height) = measurements.size;
-    let facts = fact("Adapter", &escape(&adapter))
+    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter))
         + &fact("Picture of table 1", &format!("{width} × {height} pixels"));
     let tables = [
         phases(&measurements.table),
@@ -27,12 +25,11 @@ pub(super) fn page(measurements: &Measurements) -> String {
         kernels(measurements),
     ];
     let parts = [
-        ("style", STYLE.to_owned()),
-        ("facts", provenance(&measurements.provenance) + &facts),
+        ("facts", facts),
         ("remarks", remark_paragraphs(&measurements.remarks)),
         ("tables", tables.concat()),
     ];
-    fill(include_str!("page.html"), &parts)
+    page::page("Table 1 of Illés and Szécsi, measured anew", include_str!("page.html"), &parts)
 }
 
 const WHAT: &str = "<th class=\"text\">Scene</th><th class=\"text\">Setting</th>";

@@ -5,36 +5,39 @@ use super::plan::Part;
 use super::run::{GpuRun, Measured, Outcome};
 use super::settings::Setting;
 use super::{HEADINGS, Measurements, rows};
-use crate::html::{escape, fill, section};
+use crate::html::{escape, section, table};
 use crate::numbers::{decimal, small};
+use crate::page::{self, fact, remark_paragraphs, run_facts};
 use crate::plot::line_plot;
-use crate::report::{STYLE, fact, provenance, remark_paragraphs};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let adapter = &measurements.adapter;
-    let adapter = format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver);
     let (average, most) = SHORT_STACK_ITERATIONS;
     let (before, most_before) = ITERATIVE_ITERATIONS;
     let printed = format!(
         "error of t {ERROR_OF_T}; iterations of a search {average} ({most}), before {before} \
          ({most_before})"
     );
-    let facts = provenance(&measurements.provenance)
-        + &fact("Adapter", &escape(&adapter))
+    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter))
         + &fact("The paper's", &printed);
     let bouts = &measurements.bouts;
     let mut remarks = measurements.remarks.clone();
     remarks.extend(replaced_clipping(bouts));
-    let tables: String = Part::ALL.iter().map(|&part| table(part, bouts)).collect();
+    let tables: String = Part::ALL
+        .iter()
+        .map(|&part| table(part.title(), &HEADINGS, &[0, 3], &rows(part, bouts)))
+        .collect();
     let plots: String = bouts.iter().filter_map(plot).collect();
     let parts = [
-        ("style", STYLE.to_owned()),
         ("facts", facts),
         ("remarks", remark_paragraphs(&remarks)),
         ("tables", tables + &plots + &figure_8(bouts)),
     ];
-    fill(include_str!("page.html"), &parts)
+    page::page(
+        "The measurements of Kanamori et al. 2008, repeated",
+        include_str!("page.html"),
+        &parts,
+    )
 }
 
 /// Why what section 5.4 replaces takes other iterations than the paper's; `None` where it was not
@@ -58,25 +61,6 @@ fn replaced_clipping(bouts: &[Outcome]) -> Option<String> {
          what counts as an iteration; ours clips by the hull, keeps one range, and makes what lies \
          behind it again from the whole curve.{original}"
     ))
-}
-
-fn table(part: Part, bouts: &[Outcome]) -> String {
-    let headings: String = HEADINGS.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let row = |cells: Vec<String>| {
-        let missing = HEADINGS.len() - cells.len();
-        let last = cells.len() - 1;
-        let cell = |(index, text): (usize, &String)| match index {
-            // A reason takes the place of all that is not there.
-            _ if missing > 0 && index == last => {
-                format!("<td class=\"reason\" colspan=\"{}\">{}</td>", missing + 1, escape(text))
-            }
-            0 | 3 => format!("<td class=\"text\">{}</td>", escape(text)),
-            _ => format!("<td>{}</td>", escape(text)),
-        };
-        format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
-    };
-    let body: String = rows(part, bouts).into_iter().map(row).collect();
-    section(part.title(), &headings, &body)
 }
 
 /// Time over error, for a bout of thresholds.

@@ -17,8 +17,9 @@ const fn total(size: (u32, u32), balls: u32, cpu_ms: f64, gpu_ms: f64) -> TotalT
     TotalTime { size, balls, cpu_ms, gpu_ms }
 }
 
-/// The two picture sizes.
-const SMALL: (u32, u32) = (640, 480);
+/// The smaller of the two picture sizes.
+pub const SMALL: (u32, u32) = (640, 480);
+/// The larger.
 const LARGE: (u32, u32) = (1024, 768);
 
 /// Table 1: total rendering times.

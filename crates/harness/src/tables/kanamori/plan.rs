@@ -2,19 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::paper::{SHOWN, TABLE_1};
+use super::paper::{SHOWN, SMALL, TABLE_1, TotalTime};
 use super::settings::Setting;
-
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// Small scenes and pictures, to see that everything works.
-    Quick,
-    /// The paper's, as far as ten minutes go.
-    Usual,
-    /// The paper's, however long it takes.
-    Full,
-}
+use crate::tables::Extent;
 
 /// A part of the report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,43 +51,40 @@ pub struct Bout {
     pub paper_ms: Option<(f64, Option<f64>)>,
 }
 
-impl Extent {
-    /// Everything to measure; what matters most comes first.
-    pub fn bouts(self) -> Vec<Bout> {
-        let is_quick = self == Self::Quick;
-        let size = |size| if is_quick { (64, 48) } else { size };
-        let spec = |spec: &str, quick: &str| (if is_quick { quick } else { spec }).to_owned();
-        let plain = |part, spec, settings| Bout {
-            part,
-            spec,
-            size: size((640, 480)),
-            settings,
-            paper_ms: None,
-        };
+/// Everything to measure; what matters most comes first. With `size` everything has that size, and the
+/// rows of table 1 that differ in nothing else are one.
+pub fn bouts(extent: Extent, size: Option<(u32, u32)>) -> Vec<Bout> {
+    let is_quick = extent == Extent::Quick;
+    let size = |own| size.unwrap_or(if is_quick { (64, 48) } else { own });
+    let spec = |spec: &str, quick: &str| (if is_quick { quick } else { spec }).to_owned();
+    // What is printed holds for the paper's sizes; a quick run shows the form of the rows only.
+    let printed = |own, ms| (is_quick || size(own) == own).then_some(ms);
+    let plain =
+        |part, spec, settings| Bout { part, spec, size: size(SMALL), settings, paper_ms: None };
 
-        let figure_1 = || spec("random-1k", "random:300");
-        let mut bouts = vec![
-            plain(Part::Optimizations, figure_1(), optimizations(is_quick)),
-            plain(Part::Thresholds, figure_1(), thresholds(is_quick)),
-        ];
-        let totals = if is_quick { &TABLE_1[..1] } else { TABLE_1 };
-        bouts.extend(totals.iter().map(|row| Bout {
-            part: Part::TotalTimes,
-            spec: spec(&format!("random:{}", row.balls), "random:500"),
-            size: size(row.size),
-            settings: vec![Setting::Published],
-            paper_ms: Some((row.gpu_ms, Some(row.cpu_ms))),
-        }));
-        let shown = if is_quick { &SHOWN[2..3] } else { SHOWN };
-        bouts.extend(shown.iter().map(|&(spec, fps)| Bout {
-            paper_ms: Some((1e3 / fps, None)),
-            ..plain(Part::Scenes, spec.to_owned(), vec![Setting::Published, Setting::Robust])
-        }));
-        if !is_quick {
-            bouts.push(plain(Part::Optimizations, "dam-break".to_owned(), optimizations(false)));
-        }
-        bouts
+    let figure_1 = || spec("random-1k", "random:300");
+    let mut bouts = vec![
+        plain(Part::Optimizations, figure_1(), optimizations(is_quick)),
+        plain(Part::Thresholds, figure_1(), thresholds(is_quick)),
+    ];
+    let totals = if is_quick { &TABLE_1[..1] } else { TABLE_1 };
+    let is_own = |row: &&TotalTime| size(row.size) == row.size || row.size == SMALL;
+    bouts.extend(totals.iter().filter(is_own).map(|row| Bout {
+        part: Part::TotalTimes,
+        spec: spec(&format!("random:{}", row.balls), "random:500"),
+        size: size(row.size),
+        settings: vec![Setting::Published],
+        paper_ms: printed(row.size, (row.gpu_ms, Some(row.cpu_ms))),
+    }));
+    let shown = if is_quick { &SHOWN[2..3] } else { SHOWN };
+    bouts.extend(shown.iter().map(|&(spec, fps)| Bout {
+        paper_ms: printed(SMALL, (1e3 / fps, None)),
+        ..plain(Part::Scenes, spec.to_owned(), vec![Setting::Published, Setting::Robust])
+    }));
+    if !is_quick {
+        bouts.push(plain(Part::Optimizations, "dam-break".to_owned(), optimizations(false)));
     }
+    bouts
 }
 
 fn optimizations(is_quick: bool) -> Vec<Setting> {

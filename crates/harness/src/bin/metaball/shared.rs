@@ -1,0 +1,54 @@
+//! Arguments that several commands take.
+
+use bench_scenes::Overrides;
+use clap::Args;
+use metaball_core::Kernel;
+use metaball_core::gpu::AdapterChoice;
+
+use crate::values;
+
+/// What every command takes that draws scenes of the user's.
+#[derive(Debug, Args)]
+pub(crate) struct PictureArgs {
+    /// Pixels across and down.
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
+    pub(crate) size: (u32, u32),
+    #[command(flatten)]
+    pub(crate) device: AdapterArgs,
+    /// Kernel in place of the scene's own: power, wyvill or perlin.
+    #[arg(long, value_name = "NAME", value_parser = values::kernel)]
+    kernel: Option<Kernel>,
+    /// Exponent of a power kernel, 1 to 8.
+    #[arg(long, value_name = "N")]
+    exponent: Option<i64>,
+    /// Threshold in place of the scene's own.
+    #[arg(long, value_name = "T")]
+    threshold: Option<f32>,
+}
+
+impl PictureArgs {
+    pub(crate) fn overrides(&self) -> Overrides {
+        Overrides { kernel: self.kernel, exponent: self.exponent, threshold: self.threshold }
+    }
+}
+
+/// Which adapter draws.
+#[derive(Debug, Args)]
+pub(crate) struct AdapterArgs {
+    /// Draw with the adapter that has this in its name.
+    #[arg(long, value_name = "NAME", conflicts_with = "software")]
+    adapter: Option<String>,
+    /// Draw with an adapter that computes on the CPU.
+    #[arg(long)]
+    software: bool,
+}
+
+impl AdapterArgs {
+    pub(crate) fn choice(&self) -> AdapterChoice {
+        match &self.adapter {
+            Some(name) => AdapterChoice::Named(name.clone()),
+            None if self.software => AdapterChoice::Software,
+            None => AdapterChoice::Environment,
+        }
+    }
+}
