@@ -2,6 +2,8 @@
 
 /// Three digits of a quantity of everyday size.
 pub fn decimal(value: f64) -> String {
+    // The sum of nothing is -0.
+    let value = value + 0.0;
     match value.abs() {
         size if size >= 100.0 => format!("{value:.0}"),
         size if size >= 10.0 => format!("{value:.1}"),

@@ -22,3 +22,8 @@ fn spend(iterations: u32) {
 fn can_go_on() -> bool {
     return spent < budget;
 }
+
+// Whether the budget lasts for so many more.
+fn has_room_for(iterations: u32) -> bool {
+    return spent + iterations < budget;
+}

@@ -32,6 +32,8 @@ struct Stretch {
     separator: f32,
     // Whether no chord goes on behind the stretch.
     is_last: bool,
+    // What the walk took of the budget.
+    iterations: u32,
 }
 
 // Searches from the position to the limit. Returns the first root, or NO_ROOT with the position as
@@ -52,8 +54,12 @@ fn search_crowd(
         let stretch = look_at_stretch(head, direction, start, end);
         if stretch.bound >= scene.threshold {
             if stretch.separator < end {
-                // Too much in one stretch: half of it, or at last the piece before the separator.
-                width = max(0.5 * (end - start), stretch.separator - start);
+                // Too much in one stretch: half of it, or at last the piece before the separator. With
+                // the last walk of a dispatch that piece at once: the next one begins with long
+                // stretches again, and each has to get on.
+                let piece = stretch.separator - start;
+                let is_halved = budget::has_room_for(2u * stretch.iterations);
+                width = select(piece, max(0.5 * (end - start), piece), is_halved);
                 continue;
             }
             let root = first_root_of_polynomial(stretch.field);
@@ -69,7 +75,7 @@ fn search_crowd(
 
 fn look_at_stretch(head: u32, direction: vec3<f32>, start: f32, end: f32) -> Stretch {
     count_leaf_test();
-    var stretch = Stretch(constant(-scene.threshold), 0.0, FAR, true);
+    var stretch = Stretch(constant(-scene.threshold), 0.0, FAR, true, 0u);
     var balls = 0u;
     var place = head;
     while place != lists::END {
@@ -79,7 +85,8 @@ fn look_at_stretch(head: u32, direction: vec3<f32>, start: f32, end: f32) -> Str
         place = add_ball(place, direction, start, end, &stretch);
         balls += 4u;
     }
-    budget::spend(balls / 4u + 1u);
+    stretch.iterations = balls / 4u + 1u;
+    budget::spend(stretch.iterations);
     count_evaluations(balls);
     // A sum of n terms that are not negative, each of a few roundings (numerics, section 9).
     stretch.bound *= 1.0 + f32(balls + 16u) * 0x1p-22f;
