@@ -58,7 +58,7 @@
 //! More balls over one point than the array has room for ([`Options::room`]) make the published
 //! method pass separators that are not safe; such pixels are marked as fallback.
 //!
-//! A pixel's list may have 49,152 balls before the core, and a tile 120,000; more is refused in words,
+//! A pixel's list may have 6,144 balls before the core, and a tile 120,000; more is refused in words,
 //! as is a pool that exceeds what the adapter binds: 16.7 million nodes where that is 128 MiB. A picture
 //! takes 28 bytes a pixel and 8 a list node; a scene 24 a ball, and 16 more to be sorted on the device.
 //!

@@ -24,9 +24,9 @@
 //!
 //! # Practice
 //! Any kernel, Perlin's too. Where the surface lies within 3e-6 of v = 1 − r²/R² of the rims, as with
-//! the quartic at thresholds below 1e-11 of the strengths, rays come back undecided. At most [`MOST_WINDOW`] balls may reach one interval of a ray, and 131,072
-//! one tile of 16 × 16 pixels: beyond that the frame is refused with the numbers. 24 bytes a pixel, 8
-//! for each entry of a list.
+//! the quartic at thresholds below 1e-11 of the strengths, rays come back undecided. At most [`MOST_WINDOW`]
+//! balls may reach one interval of a ray, and 131,072 one tile of 16 × 16 pixels: beyond that the frame is
+//! refused with the numbers. 24 bytes a pixel, 8 for each entry of a list.
 
 mod room;
 
@@ -43,7 +43,7 @@ pub(crate) use self::room::{Entry, State};
 use self::room::{Room, room_layout};
 
 /// The most balls that the search can hold apart on one interval of a ray.
-pub const MOST_WINDOW: u32 = 12_288;
+pub const MOST_WINDOW: u32 = 8_192;
 
 /// The most balls over a tile: `MOST_ENTRIES` of `kanamori_robust/lists.wgsl`.
 const MOST_ENTRIES: u32 = 131_072;

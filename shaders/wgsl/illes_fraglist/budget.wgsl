@@ -1,17 +1,17 @@
-// Work that one invocation must not exceed. Software Vulkan ends an invocation's loops, silently,
-// after 65,535 iterations in all; so loops are counted, and past the budget a ray waits for the next
-// dispatch.
+// Work that one invocation must not exceed. Software Vulkan runs eight invocations side by side and ends
+// their loops, silently, after 65,535 iterations in all: as many as the longest of them takes where they go
+// the same way, and up to the sum where they do not. So loops are counted, and past the budget a ray
+// waits for the next dispatch.
 #define_import_path metaball::illes_fraglist::budget
 
-// Walks along lists take four nodes an iteration, since iterations are what is scarce. Besides its
-// budget an invocation may walk along a list of LONGEST_LIST nodes, at a quarter of an iteration each:
-// with the first dispatch once to count and twice in a last pass of order.wgsl; later once to recall
-// where it was, once along a stretch, and once for the normal. Either is at most 36,864 iterations, and
-// one piece's root at most 4,000 more.
-const LONGEST_LIST: u32 = 49152u;
+// Walks along lists take four nodes an iteration, since iterations are what is scarce. All rays walk
+// together once to count and once to recall where they were, and once for the normal: 4,608 iterations with
+// lists of LONGEST_LIST nodes. Beyond its budget an invocation may go on for one pass of order.wgsl, two
+// walks, or for one walk along a stretch and the root of one piece, some 1,500: eight times 7,168 at most.
+const LONGEST_LIST: u32 = 6144u;
 
 // Iterations after which a ray waits.
-@id(48) override budget: u32 = 16384u;
+@id(48) override budget: u32 = 4096u;
 
 var<private> spent: u32;
 
@@ -21,9 +21,4 @@ fn spend(iterations: u32) {
 
 fn can_go_on() -> bool {
     return spent < budget;
-}
-
-// Whether the budget lasts for so many more.
-fn has_room_for(iterations: u32) -> bool {
-    return spent + iterations < budget;
 }

@@ -22,7 +22,7 @@
 // position tell what is in them.
 struct Progress {
     stage: u32,
-    // Node of the list to go on with.
+    // Node of the list to go on with; of a crowded pixel the width of the next stretch, as bits.
     place: u32,
     // Distance along the ray up to which there is no root.
     position: f32,
@@ -90,9 +90,9 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
             now = Progress(WAITING, place, position, fallback);
         }
         if outcome == NO_ROOM {
-            now.stage = CROWDED;
-            outcome = search_crowd(lists::head_of(pixel));
-            now.position = position;
+            var width = select(0.0, bitcast<f32>(now.place), now.stage == CROWDED);
+            outcome = search_crowd(lists::head_of(pixel), &width);
+            now = Progress(CROWDED, bitcast<u32>(width), position, fallback);
         }
         if outcome != SPENT {
             now.stage = DONE;
@@ -214,9 +214,9 @@ fn make_room() -> u32 {
 }
 
 // Searches the rest of the ray without the array.
-fn search_crowd(head: u32) -> u32 {
+fn search_crowd(head: u32, width: ptr<function, f32>) -> u32 {
     var reached = position;
-    let root = crowd::search_crowd(head, direction, limit, &reached);
+    let root = crowd::search_crowd(head, direction, limit, &reached, width);
     let is_found = root >= 0.0;
     position = select(reached, root, is_found);
     if is_found {

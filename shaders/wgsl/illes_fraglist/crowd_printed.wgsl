@@ -14,6 +14,7 @@ fn search_crowd(
     direction: vec3<f32>,
     limit: f32,
     position: ptr<function, f32>,
+    width: ptr<function, f32>,
 ) -> f32 {
     return NO_ROOT;
 }

@@ -32,34 +32,32 @@ struct Stretch {
     separator: f32,
     // Whether no chord goes on behind the stretch.
     is_last: bool,
-    // What the walk took of the budget.
-    iterations: u32,
 }
 
-// Searches from the position to the limit. Returns the first root, or NO_ROOT with the position as
-// far as was searched: short of the limit where the budget is spent.
+// Searches from the position to the limit, at first in a stretch of a width, scene units; 0: as long as the
+// first ball's radius. Returns the first root, or NO_ROOT with the position as far as was searched: short
+// of the limit where the budget is spent, and to be gone on from with the width that is left.
 fn search_crowd(
     head: u32,
     direction: vec3<f32>,
     limit: f32,
     position: ptr<function, f32>,
+    width: ptr<function, f32>,
 ) -> f32 {
-    var width = support_of_rank(lists::rank_at(head)).radius;
+    if *width == 0.0 {
+        *width = support_of_rank(lists::rank_at(head)).radius;
+    }
     while *position < limit && budget::can_go_on() {
         let start = *position;
         // However short, a stretch reaches the next float, and no further: two floats on, a separator
         // may lie between, and no stretch before it would ever end there.
         let next = bitcast<f32>(bitcast<u32>(start) + 1u);
-        let end = min(max(start + width, next), limit);
+        let end = min(max(start + *width, next), limit);
         let stretch = look_at_stretch(head, direction, start, end);
         if stretch.bound >= scene.threshold {
             if stretch.separator < end {
-                // Too much in one stretch: half of it, or at last the piece before the separator. With
-                // the last walk of a dispatch that piece at once: the next one begins with long
-                // stretches again, and each has to get on.
-                let piece = stretch.separator - start;
-                let is_halved = budget::has_room_for(2u * stretch.iterations);
-                width = select(piece, max(0.5 * (end - start), piece), is_halved);
+                // Too much in one stretch: half of it, or at last the piece before the separator.
+                *width = max(0.5 * (end - start), stretch.separator - start);
                 continue;
             }
             let root = first_root_of_polynomial(stretch.field);
@@ -68,14 +66,14 @@ fn search_crowd(
             }
         }
         *position = select(end, limit, stretch.is_last);
-        width = 2.0 * (end - start);
+        *width = 2.0 * (end - start);
     }
     return NO_ROOT;
 }
 
 fn look_at_stretch(head: u32, direction: vec3<f32>, start: f32, end: f32) -> Stretch {
     count_leaf_test();
-    var stretch = Stretch(constant(-scene.threshold), 0.0, FAR, true, 0u);
+    var stretch = Stretch(constant(-scene.threshold), 0.0, FAR, true);
     var balls = 0u;
     var place = head;
     while place != lists::END {
@@ -85,8 +83,7 @@ fn look_at_stretch(head: u32, direction: vec3<f32>, start: f32, end: f32) -> Str
         place = add_ball(place, direction, start, end, &stretch);
         balls += 4u;
     }
-    stretch.iterations = balls / 4u + 1u;
-    budget::spend(stretch.iterations);
+    budget::spend(balls / 4u + 1u);
     count_evaluations(balls);
     // A sum of n terms that are not negative, each of a few roundings (numerics, section 9).
     stretch.bound *= 1.0 + f32(balls + 16u) * 0x1p-22f;

@@ -20,12 +20,15 @@
 #import metaball::view::{in_picture, pixel_at, rays, Ray}
 #import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test, write_work}
 
-// Iterations after which a ray waits. Before it looks again, one pass over skipped balls and two walks
-// along a window may follow.
-@id(44) override budget: u32 = 16384u;
+// Iterations after which a ray waits. Before it looks again two walks along a window may follow, four balls
+// an iteration: 8,096 in all. Software Vulkan runs eight invocations side by side and ends their loops,
+// silently, after 65,535 iterations, which come to the sum where they go different ways.
+@id(44) override budget: u32 = 4000u;
 
 // Balls that one interval can reach: MOST_WINDOW of crates/kanamori-peel/src/robust.rs.
-const MOST_WINDOW: u32 = 12288u;
+const MOST_WINDOW: u32 = 8192u;
+// Behind the last ball of a walk.
+const END: u32 = 0xffffffffu;
 // An interval of this part of the smallest radius in it is short: a root in it is known well enough.
 const SHORT: f32 = 0x1p-20f;
 
@@ -130,7 +133,7 @@ fn rebase(ray: Ray) {
 // Looks at one interval.
 fn narrow(pixel: u32, ray: Ray) {
     skip_passed();
-    if spent >= 2u * budget {
+    if spent >= budget {
         return;
     }
     if state.first == list_end {
@@ -192,7 +195,7 @@ fn narrow(pixel: u32, ray: Ray) {
 
 // Balls at the front of the list that end before `probe`.
 fn skip_passed() {
-    while state.first < list_end && spent < 2u * budget {
+    while state.first < list_end && spent < budget {
         let entry = entries[state.first];
         let width = 2.0 * support_of(entry.ball).radius;
         let far = entry.near - state.base + width + 64.0 * UNIT * (abs(entry.near) + width);
@@ -242,7 +245,9 @@ struct Bounds {
     end_least: f32,
     // Least radius among the balls that reach the interval.
     radius: f32,
-    // Whether more balls may reach the interval than were looked at.
+    // Balls that were looked at.
+    balls: u32,
+    // Whether more may reach the interval.
     is_crowded: bool,
 }
 
@@ -253,84 +258,125 @@ struct Bounds {
 // moves v = 1 - r^2/R^2 by at most 26 units, and 12 units for each radius of the stretch (numerics,
 // section 9); what the view from beside lacks comes on top, twice.
 fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
-    let margin_length = 12.0 * UNIT * max(abs(low), abs(high)) + 2.1 * here.misplaced;
-    var most = 0.0;
-    var least_slope = 0.0;
-    var end_least = 0.0;
-    var radius = 1e38;
+    var bounds = Bounds(0.0, 0.0, 0.0, 1e38, 0u, false);
+    let end = window_end();
     var place = state.first;
-    let end = min(list_end, state.first + MOST_WINDOW);
-    for (; place < end; place++) {
-        let entry = entries[place];
-        if entry.near - state.base > high + 2.0 * UNIT * abs(high) {
-            break;
-        }
-        let support = support_of(entry.ball);
-        let offset = offset_to(here, support.center);
-        let middle = dot(offset, direction);
-        let off_axis = offset - middle * direction;
-        let inverse_radius = 1.0 / support.radius;
-        let inverse_square = inverse_radius * inverse_radius;
-        let off_square = dot(off_axis, off_axis);
-        let margin = 26.0 * UNIT + margin_length * inverse_radius;
-
-        let near = clamp(middle, low, high) - middle;
-        let v_most = 1.0 - (off_square + near * near) * inverse_square + margin;
-        if v_most <= 0.0 {
-            continue;
-        }
-        let to_end = high - middle;
-        let to_start = low - middle;
-        let v_end = 1.0 - (off_square + to_end * to_end) * inverse_square;
-        let v_start = 1.0 - (off_square + to_start * to_start) * inverse_square;
-        let q = strength(entry.ball);
-        most += q * kernel(v_most);
-        end_least += q * kernel(v_end - margin);
-        var slope = 0.0;
-        if middle >= high {
-            let gentlest = min(kernel_slope(v_start - margin), kernel_slope(v_end - margin));
-            slope = gentlest * max(middle - high, 0.0) * (1.0 - 16.0 * UNIT);
-        } else {
-            let v_least = min(v_start, v_end) - margin;
-            slope = -steepest_slope(v_least, v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
-        }
-        least_slope += 2.0 * q * inverse_square * slope;
-        radius = min(radius, support.radius);
+    while place < end {
+        place = bound_ball(place, end, direction, low, high, &bounds);
+        place = bound_ball(place, end, direction, low, high, &bounds);
+        place = bound_ball(place, end, direction, low, high, &bounds);
+        place = bound_ball(place, end, direction, low, high, &bounds);
     }
-    let balls = place - state.first;
+    let balls = bounds.balls;
     count_balls(balls);
     count_evaluations(balls);
-    spent += balls + 1u;
+    spent += balls / 4u + 1u;
     // The sum of n terms of one sign, each of a few products, errs by less than this part of it.
     let summing = f32(balls + 24u) * UNIT;
-    let is_crowded = balls == MOST_WINDOW && place < list_end;
-    return Bounds(
-        most * (1.0 + summing), least_slope, end_least * (1.0 - summing), radius, is_crowded,
-    );
+    bounds.most *= 1.0 + summing;
+    bounds.end_least *= 1.0 - summing;
+    bounds.is_crowded = balls == MOST_WINDOW && end < list_end;
+    return bounds;
+}
+
+// The first place behind the balls that may be looked at.
+fn window_end() -> u32 {
+    return min(list_end, state.first + MOST_WINDOW);
+}
+
+// Whether no ball from a place on reaches a distance less the base, rounding included.
+fn begins_behind(place: u32, high: f32) -> bool {
+    return entries[place].near - state.base > high + 2.0 * UNIT * abs(high);
+}
+
+// Takes a ball into bounds. Returns the next place; END behind the last ball that may reach the interval.
+fn bound_ball(
+    place: u32,
+    end: u32,
+    direction: vec3<f32>,
+    low: f32,
+    high: f32,
+    bounds: ptr<function, Bounds>,
+) -> u32 {
+    if place >= end || begins_behind(place, high) {
+        return END;
+    }
+    (*bounds).balls++;
+    let ball = entries[place].ball;
+    let support = support_of(ball);
+    let offset = offset_to(here, support.center);
+    let middle = dot(offset, direction);
+    let off_axis = offset - middle * direction;
+    let inverse_radius = 1.0 / support.radius;
+    let inverse_square = inverse_radius * inverse_radius;
+    let off_square = dot(off_axis, off_axis);
+    let margin_length = 12.0 * UNIT * max(abs(low), abs(high)) + 2.1 * here.misplaced;
+    let margin = 26.0 * UNIT + margin_length * inverse_radius;
+
+    let near = clamp(middle, low, high) - middle;
+    let v_most = 1.0 - (off_square + near * near) * inverse_square + margin;
+    if v_most <= 0.0 {
+        return place + 1u;
+    }
+    let to_end = high - middle;
+    let to_start = low - middle;
+    let v_end = 1.0 - (off_square + to_end * to_end) * inverse_square;
+    let v_start = 1.0 - (off_square + to_start * to_start) * inverse_square;
+    let q = strength(ball);
+    (*bounds).most += q * kernel(v_most);
+    (*bounds).end_least += q * kernel(v_end - margin);
+    var slope = 0.0;
+    if middle >= high {
+        let gentlest = min(kernel_slope(v_start - margin), kernel_slope(v_end - margin));
+        slope = gentlest * max(middle - high, 0.0) * (1.0 - 16.0 * UNIT);
+    } else {
+        let v_least = min(v_start, v_end) - margin;
+        slope = -steepest_slope(v_least, v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
+    }
+    (*bounds).least_slope += 2.0 * q * inverse_square * slope;
+    (*bounds).radius = min((*bounds).radius, support.radius);
+    return place + 1u;
 }
 
 // The field less T and its slope: best values, no bounds.
 fn field_and_slope(direction: vec3<f32>, t: f32) -> vec2<f32> {
     var sum = vec2(-scene.threshold, 0.0);
-    let end = min(list_end, state.first + MOST_WINDOW);
+    let end = window_end();
     var place = state.first;
-    for (; place < end; place++) {
-        let entry = entries[place];
-        if entry.near - state.base > state.high + 2.0 * UNIT * abs(state.high) {
-            break;
-        }
-        let support = support_of(entry.ball);
-        let offset = offset_to(here, support.center);
-        let middle = dot(offset, direction);
-        let off_axis = offset - middle * direction;
-        let along = t - middle;
-        let square = support.radius * support.radius;
-        let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
-        sum += strength(entry.ball) * vec2(kernel(v), -2.0 * along / square * kernel_slope(v));
+    var walked = 1u;
+    while place < end {
+        place = add_field(place, end, direction, t, &sum);
+        place = add_field(place, end, direction, t, &sum);
+        place = add_field(place, end, direction, t, &sum);
+        place = add_field(place, end, direction, t, &sum);
+        walked++;
     }
-    count_evaluations(place - state.first);
-    spent += place - state.first + 1u;
+    count_evaluations(4u * (walked - 1u));
+    spent += walked;
     return sum;
+}
+
+// Adds a ball to field and slope. Returns the next place; END behind the last ball that may reach t.
+fn add_field(
+    place: u32,
+    end: u32,
+    direction: vec3<f32>,
+    t: f32,
+    sum: ptr<function, vec2<f32>>,
+) -> u32 {
+    if place >= end || begins_behind(place, state.high) {
+        return END;
+    }
+    let ball = entries[place].ball;
+    let support = support_of(ball);
+    let offset = offset_to(here, support.center);
+    let middle = dot(offset, direction);
+    let off_axis = offset - middle * direction;
+    let along = t - middle;
+    let square = support.radius * support.radius;
+    let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
+    *sum += strength(ball) * vec2(kernel(v), -2.0 * along / square * kernel_slope(v));
+    return place + 1u;
 }
 
 fn miss(pixel: u32) {
@@ -348,21 +394,13 @@ fn undecided(pixel: u32, ray: Ray) {
 fn surface(pixel: u32, ray: Ray, t: f32, status: u32) {
     var slope = vec3(0.0);
     blend_start();
-    let end = min(list_end, state.first + MOST_WINDOW);
-    for (var place = state.first; place < end; place++) {
-        let entry = entries[place];
-        if entry.near - state.base > t + 4.0 * UNIT * abs(t) {
-            break;
-        }
-        let support = support_of(entry.ball);
-        let to_center = offset_to(here, support.center);
-        let middle = dot(to_center, ray.direction);
-        let along = t - middle;
-        let off_axis = to_center - middle * ray.direction;
-        let square = support.radius * support.radius;
-        let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
-        slope += gradient(entry.ball, v, along * ray.direction - off_axis, support.radius);
-        blend_add(entry.ball, contribution(entry.ball, v));
+    let end = window_end();
+    var place = state.first;
+    while place < end {
+        place = add_slope(place, end, ray.direction, t, &slope);
+        place = add_slope(place, end, ray.direction, t, &slope);
+        place = add_slope(place, end, ray.direction, t, &slope);
+        place = add_slope(place, end, ray.direction, t, &slope);
     }
     blend_write(pixel);
     // Where the field is flat, as at a lone centre, the surface faces the ray.
@@ -370,4 +408,29 @@ fn surface(pixel: u32, ray: Ray, t: f32, status: u32) {
     let normal = select(-ray.direction, -slope / steepness, steepness > 0.0);
     hit::write_hit(pixel, clamp(state.base + t, 0.0, ray.t_max), normal, status);
     state.stage = DONE;
+}
+
+// Adds what a ball gives to slope and colour at a t less the base. Returns the next place; END behind the
+// last ball that may reach t.
+fn add_slope(
+    place: u32,
+    end: u32,
+    direction: vec3<f32>,
+    t: f32,
+    slope: ptr<function, vec3<f32>>,
+) -> u32 {
+    if place >= end || begins_behind(place, t + 2.0 * UNIT * abs(t)) {
+        return END;
+    }
+    let ball = entries[place].ball;
+    let support = support_of(ball);
+    let to_center = offset_to(here, support.center);
+    let middle = dot(to_center, direction);
+    let along = t - middle;
+    let off_axis = to_center - middle * direction;
+    let square = support.radius * support.radius;
+    let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
+    *slope += gradient(ball, v, along * direction - off_axis, support.radius);
+    blend_add(ball, contribution(ball, v));
+    return place + 1u;
 }

@@ -44,7 +44,7 @@ fn more_than_the_limit_is_refused_by_number() {
         Err(RenderError::Unsupported { reason, .. }) => {
             assert_eq!(
                 reason,
-                "needed at most 12288 balls that reach one interval of a ray, found more"
+                "needed at most 8192 balls that reach one interval of a ray, found more"
             );
         }
         outcome => panic!("{:?}", outcome.map(|hits| hits.len())),
