@@ -10,7 +10,7 @@
 #import metaball::fbvh::excess::{bounds_on, SIGN, SOLID_ENDS}
 #import metaball::fbvh::local::{at, local_frame, Frame, UNIT}
 #import metaball::fbvh::structure::{leaves, lists, Leaf}
-#import metaball::fbvh::suspend::{can_go_on, spent}
+#import metaball::fbvh::suspend::{can_walk, spent}
 #import metaball::hit::{HIT, INSIDE, UNDECIDED}
 #import metaball::kernel::{greatest_bend, kernel, kernel_slope}
 #import metaball::ray::{any_will_do, Ray}
@@ -66,7 +66,7 @@ const SHORT: f32 = 0x1p-20f;
 // bounds.
 fn excess_and_slopes(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: f32) -> vec3<f32> {
     count_evaluations(end - first);
-    spent += end - first;
+    spent += end - first + 1u;
     var sum = vec2(-scene.threshold, 0.0);
     var bend = 0.0;
     for (var entry = first; entry < end; entry++) {
@@ -111,7 +111,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         if frame.enter > frame.leave {
             return MISSED;
         }
-        if !can_go_on() {
+        if !can_walk(end - first + 1u) {
             return WAITING;
         }
         count_leaf_test();
@@ -137,7 +137,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     }
 
     while search.stage == NARROW {
-        if !can_go_on() {
+        if !can_walk(end - first + 1u) {
             return WAITING;
         }
         // The interval from `probe` on is looked at; before it the excess is below 0 up to `low`, and
@@ -194,7 +194,7 @@ fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     var t = search.high_value;
     let known = UNIT * max(abs(frame.enter), abs(frame.leave));
     for (var step = 0u; step < 48u; step++) {
-        if !can_go_on() {
+        if !can_walk(end - first + 1u) {
             return WAITING;
         }
         count_iterations(1u);

@@ -37,7 +37,7 @@ struct Bounds {
 // One walk along the leaf's list.
 fn bounds_on(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32, high: f32) -> Bounds {
     count_evaluations(end - first);
-    spent += end - first;
+    spent += end - first + 1u;
     var least = 0.0;
     var most_slope = 0.0;
     var end_most = 0.0;

@@ -6,7 +6,7 @@
 #import metaball::field::{contribution, depth_below_rim, offset_at}
 #import metaball::hit::{HIT, INSIDE}
 #import metaball::fbvh::structure::{is_empty, leaves, lists, through_box, Leaf, Stretch}
-#import metaball::fbvh::suspend::{can_go_on, spent}
+#import metaball::fbvh::suspend::{can_go_on, can_walk, spent}
 #import metaball::ray::{any_will_do, Ray}
 #import metaball::scene::scene
 #import metaball::support::support_of
@@ -97,14 +97,20 @@ fn field_above(ray: Ray, first: u32, end: u32, t: f32) -> f32 {
     for (; entry < end; entry++) {
         sum += contribution_at(lists[entry], ray, t);
     }
-    spent += (end - first) / 4u + 4u;
+    spent += walk_along(first, end);
     return sum - scene.threshold;
+}
+
+// Iterations of an evaluation, at most.
+fn walk_along(first: u32, end: u32) -> u32 {
+    return (end - first) / 4u + 4u;
 }
 
 // Goes on with the search of a leaf. FOUND leaves the hit's distance in `search.high`.
 fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     let leaf = leaves[index];
     let end = leaves[index + 1u].first;
+    let walk = walk_along(leaf.first, end);
     let in_box = through_box(leaf.min, leaf.max, ray, inverse);
     var stretch = Stretch(0.0, ray.t_max);
     if clipped {
@@ -116,7 +122,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         if is_empty(in_box) {
             return MISSED;
         }
-        if !can_go_on() {
+        if !can_walk(walk) {
             return WAITING;
         }
         count_leaf_test();
@@ -135,9 +141,12 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     if search.stage == PROJECT {
         let projected = select(leaf.first + leaf.own, end, fitted);
         while search.next < projected {
+            if !can_go_on() {
+                return WAITING;
+            }
             let t = dot(support_of(lists[search.next]).center - ray.origin, ray.direction);
             if t > search.low && t < search.high {
-                if !can_go_on() {
+                if !can_walk(walk) {
                     return WAITING;
                 }
                 let value = field_above(ray, leaf.first, end, t);
@@ -158,7 +167,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     // Projections beyond the stretch are clamped to its end, all of them in one evaluation.
     if search.stage == EXIT {
         if search.high_value < 0.0 && search.high < NO_LIMIT {
-            if !can_go_on() {
+            if !can_walk(walk) {
                 return WAITING;
             }
             search.high_value = field_above(ray, leaf.first, end, search.high);
@@ -171,7 +180,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
 
     if search.stage == START {
         if search.low_value == UNKNOWN {
-            if !can_go_on() {
+            if !can_walk(walk) {
                 return WAITING;
             }
             search.low_value = field_above(ray, leaf.first, end, search.low);
@@ -196,7 +205,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         if t <= search.low || t >= search.high {
             break;
         }
-        if !can_go_on() {
+        if !can_walk(walk) {
             return WAITING;
         }
         count_iterations(1u);

@@ -1,17 +1,23 @@
 // Work that one invocation must not exceed, and where a ray waits for the next dispatch.
 //
-// Software Vulkan ends an invocation's loops, silently, after 65,535 iterations in all, and a real
-// driver has its watchdog. A dense leaf asks for more. So every loop counts; past `budget` the ray
-// writes down where it stands and the next dispatch takes it up there. A ray that finds no place
-// to wait, or is still waiting after the last dispatch, leaves the frame unfinished, which it says.
+// Software Vulkan ends loops, silently, after 65,535 iterations in all of the eight invocations that it
+// runs side by side, and a real driver has its watchdog. A dense leaf asks for more, the more so where
+// the eight go different ways and each waits for the others. So every loop counts; before `budget` would
+// be exceeded the ray writes down where it stands and the next dispatch takes it up there. A ray that
+// finds no place to wait, or is still waiting after the last dispatch, leaves the frame unfinished, which
+// it says.
 #define_import_path metaball::fbvh::suspend
 
 #import metaball::fbvh::structure::EMPTY
 #import metaball::status::{report_finished, report_needed, report_unfinished}
 
-// Iterations after which a ray waits. A walk along a leaf's list may still follow, and another for
-// the normal: LONGEST_LIST of crates/fbvh/src/gpu/device_tree.rs bounds them.
-@id(16) override budget: u32 = 32768u;
+// Iterations after which a ray waits. LONGEST_LIST of crates/fbvh/src/gpu/device_tree.rs is as much: so
+// eight rays, each with a walk along such a list after its way back and a last look at its stack, come to
+// 57,000, and to 63,800 with the walk for normals, which they do together.
+@id(16) override budget: u32 = 6800u;
+
+// What it may take to get back to where a ray waited: two iterations a level, and more.
+const WAY_BACK: u32 = 256u;
 
 // A ray between two dispatches. Twin: Suspended of crates/fbvh/src/gpu/layout.rs.
 struct Suspended {
@@ -47,6 +53,12 @@ var<private> spent: u32;
 
 fn can_go_on() -> bool {
     return spent < budget;
+}
+
+// Whether a walk of so many iterations may begin. Right after the way back it may, so that each dispatch
+// gets on with every ray.
+fn can_walk(iterations: u32) -> bool {
+    return spent + iterations <= budget || spent <= WAY_BACK;
 }
 
 // A ray of the first dispatch waits. Where the pool is full the frame is unfinished for good, and

@@ -1,24 +1,29 @@
 //! Scenes that need more room or work than a frame begins with: the frame says so and is redone,
 //! and the picture is right.
 
+use bench_scenes::{Overrides, load};
+use fbvh::{TraceOptions, Tracer, Tree};
 use glam::Vec3;
 use harness::judge::{Exam, terms_of};
+use harness::methods::{METHODS, tree_options};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
-use metaball_core::{Camera, Kernel, Metaball, Scene, View};
+use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, View};
 
 use super::agreement::pass;
 use super::{draw, on_gpu, renderer};
 
 pub(super) fn trials() -> Vec<Trial> {
-    harness::methods::METHODS
-        .iter()
-        .map(|method| {
-            let name = format!("capacity::dense_leaf::{}", method.name);
-            on_gpu(name, move |gpu| dense_leaf(gpu, method.name))
-        })
-        .collect()
+    let dense_leaves = METHODS.iter().map(|method| {
+        let name = format!("capacity::dense_leaf::{}", method.name);
+        on_gpu(name, move |gpu| dense_leaf(gpu, method.name))
+    });
+    let apart = ["fbvh", "fbvh-certified"].into_iter().map(|method| {
+        let name = format!("capacity::different_ways::{method}");
+        on_gpu(name, move |gpu| different_ways(gpu, method))
+    });
+    dense_leaves.chain(apart).collect()
 }
 
 /// 1,200 balls that no plane can part, each with its own radius: a leaf test of more than a million
@@ -43,4 +48,29 @@ fn dense_leaf(gpu: &Gpu, method: &str) -> Result<(), Failed> {
         return Err(format!("needed 50 hits to judge, found {judged}").into());
     }
     pass(&findings)
+}
+
+/// Rays that graze a dense cloud and go different ways through its leaves, of 500 overlapping balls:
+/// invocations that run side by side wait for each other, and software Vulkan ends their loops after
+/// 65,535 iterations of all of them together. The shader finds what its twin on the CPU does.
+fn different_ways(gpu: &Gpu, method: &str) -> Result<(), Failed> {
+    let scene = load("scattered:10000:500", &Overrides::default())?.scene.with_threshold(39.0)?;
+    let (eye, beside) = (Vec3::new(1.098, 0.769, 2.197), Vec3::new(0.747, 0.689, 1.264));
+    let camera = Camera::look_at(eye, beside, Vec3::Y, 4.0)?;
+    let view = View::new(camera, 16, 12)?;
+    let picture = draw(gpu, renderer(method)?.as_mut(), &scene, &view)?;
+
+    let options = tree_options(method).ok_or("the method has no tree")?;
+    let tree = Tree::build(&scene, &options)?;
+    let twins = Tracer::new(&tree, &scene, TraceOptions::DEFAULT).first_hits(&picture.rays);
+    let is_same = |ours: &Hit, twin: &Hit| {
+        ours.verdict == twin.verdict && (!ours.is_hit() || (ours.t - twin.t).abs() <= 1e-4 * twin.t)
+    };
+    let pairs = picture.hits.iter().zip(&twins);
+    let hits = twins.iter().filter(|twin| twin.is_hit()).count();
+    match pairs.clone().filter(|(ours, twin)| !is_same(ours, twin)).count() {
+        0 if hits > 50 => Ok(()),
+        0 => Err(format!("needed more than 50 hits to compare, found {hits}").into()),
+        apart => Err(format!("{apart} of {} hits are not their twins'", twins.len()).into()),
+    }
 }

@@ -6,8 +6,8 @@
 //! test of Gourmel et al. 2010, section 3, as the CPU's [`Tracer`](crate::Tracer) does.
 //!
 //! # Changes versus the paper
-//! *Rays can wait.* The leaf test is quadratic, and software Vulkan silently ends an invocation's
-//! loops after 65,535 iterations; a watchdog may do worse. So an invocation counts its iterations,
+//! *Rays can wait.* The leaf test is quadratic, and software Vulkan silently ends the loops of eight
+//! invocations after 65,535 iterations in all; a watchdog may do worse. So an invocation counts its own,
 //! and past a budget writes down where its ray stands; the next dispatch takes it up there. A frame
 //! begins with one dispatch over the picture, label `trace`, and goes on with indirect ones over
 //! the rays that wait, label `resume`. A frame that ends with rays waiting, or had no place for
