@@ -86,6 +86,7 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
         var outcome = NO_ROOM;
         if now.stage == WAITING {
             recall(lists::head_of(pixel), place);
+            budget::begin();
             outcome = go_along(&place);
             now = Progress(WAITING, place, position, fallback);
         }
