@@ -4,6 +4,7 @@ mod agreement;
 mod canaries;
 mod capacity;
 mod certify;
+mod depth;
 mod fragments;
 mod frames;
 mod gallery;
@@ -30,6 +31,7 @@ pub fn all() -> Vec<Trial> {
     trials.extend(canaries::trials());
     trials.extend(capacity::trials());
     trials.extend(certify::trials());
+    trials.extend(depth::trials());
     trials.extend(fragments::trials());
     trials.extend(frames::trials());
     trials.extend(light::trials());

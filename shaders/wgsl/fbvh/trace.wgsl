@@ -13,7 +13,7 @@
 #import metaball::strength::strength
 #import metaball::support::support_of
 #import metaball::view::{in_picture, pixel_at}
-#import metaball::work::{count_node, write_work}
+#import metaball::work::{come_back_to, count_node, go_down, leave_for_later, write_work}
 
 // The tree's root: a node, a leaf, or EMPTY.
 @id(21) override root: u32 = 0xffffffffu;
@@ -35,6 +35,7 @@ var<private> best_status: u32;
 
 fn push(place: u32, enter: f32) {
     stack[depth] = place;
+    leave_for_later(depth);
     if !leaf::first_hit_ends() {
         enters[depth] = enter;
     }
@@ -47,6 +48,7 @@ fn pop() -> u32 {
         depth--;
         suspend::spent++;
         if leaf::first_hit_ends() || enters[depth] < best_t {
+            come_back_to(depth);
             return stack[depth];
         }
     }
@@ -63,6 +65,7 @@ fn descend(place: u32, ray: Ray, inverse: vec3<f32>) {
     var current = root;
     while current != place {
         suspend::spent++;
+        go_down();
         let node = structure::nodes[current];
         let children = children_of(node, ray, inverse);
         current = select(node.right, node.left, structure::is_below_left(node, place));
@@ -84,6 +87,7 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
             }
             suspend::spent++;
             count_node();
+            go_down();
             let node = structure::nodes[place];
             let children = children_of(node, ray, inverse);
             if children.far != structure::EMPTY && children.far_enter < best_t {

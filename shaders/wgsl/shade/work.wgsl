@@ -23,7 +23,8 @@ fn counted(work: Work) -> u32 {
         case 2u: { return work.balls; }
         case 3u: { return work.evaluations; }
         case 4u: { return work.iterations; }
-        default: { return work.layers; }
+        case 5u: { return work.layers; }
+        default: { return work.depth; }
     }
 }
 

@@ -7,8 +7,31 @@ var<private> work: Work;
 // Iterations since the last search ended.
 var<private> in_search: u32;
 
+// Levels of a tree, at most: MAX_DEPTH of crates/fbvh/src/node.rs.
+const MAX_DEPTH: u32 = 64u;
+
+// Interior nodes on the way from a tree's root to where a walk is, and to the subtrees that it left for
+// later, each in its slot.
+var<private> level: u32;
+var<private> levels_left: array<u32, MAX_DEPTH>;
+
 fn count_node() {
     work.nodes += 1u;
+}
+
+// Through an interior node, to one of its children.
+fn go_down() {
+    level += 1u;
+    work.depth = max(work.depth, level);
+}
+
+// A child of the node that was last gone through is left for later.
+fn leave_for_later(slot: u32) {
+    levels_left[slot] = level;
+}
+
+fn come_back_to(slot: u32) {
+    level = levels_left[slot];
 }
 
 fn count_leaf_test() {
@@ -46,6 +69,7 @@ fn write_work(pixel: u32) {
     work_of_pixel[pixel].evaluations += work.evaluations;
     work_of_pixel[pixel].iterations += work.iterations;
     work_of_pixel[pixel].layers += work.layers;
+    work_of_pixel[pixel].depth = max(work_of_pixel[pixel].depth, work.depth);
     let longest = max(work_of_pixel[pixel].longest_search, work.longest_search);
     work_of_pixel[pixel].longest_search = longest;
     work = Work();

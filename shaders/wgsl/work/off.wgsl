@@ -3,6 +3,12 @@
 
 fn count_node() {}
 
+fn go_down() {}
+
+fn leave_for_later(slot: u32) {}
+
+fn come_back_to(slot: u32) {}
+
 fn count_leaf_test() {}
 
 fn count_balls(n: u32) {}

@@ -15,6 +15,8 @@ struct Work {
     iterations: u32,
     // Peeled layers or list entries gone through.
     layers: u32,
+    // Interior nodes on the longest way that was gone down from a tree's root.
+    depth: u32,
     // Most steps of a root finder in one search.
     longest_search: u32,
 }

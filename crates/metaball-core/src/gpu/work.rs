@@ -20,6 +20,9 @@ pub struct Work {
     pub iterations: u32,
     /// Peeled layers or list entries gone through.
     pub layers: u32,
+    /// Interior nodes on the longest way that was gone down from a tree's root; 0 from methods without a
+    /// tree. In the unit of `depth` in the statistics of a tree, which is its bound.
+    pub depth: u32,
     /// Most steps of a root finder in one search; 0 from methods that do not say where a search
     /// ends. No sum over the picture means anything, so it is no [`WorkKind`].
     pub longest_search: u32,
@@ -41,17 +44,20 @@ pub enum WorkKind {
     Iterations = 4,
     /// [`Work::layers`].
     Layers = 5,
+    /// [`Work::depth`].
+    Depth = 6,
 }
 
 impl WorkKind {
     /// Every counter.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Nodes,
         Self::LeafTests,
         Self::Balls,
         Self::Evaluations,
         Self::Iterations,
         Self::Layers,
+        Self::Depth,
     ];
 
     /// The counter's value.
@@ -63,6 +69,7 @@ impl WorkKind {
             Self::Evaluations => work.evaluations,
             Self::Iterations => work.iterations,
             Self::Layers => work.layers,
+            Self::Depth => work.depth,
         }
     }
 }
@@ -77,6 +84,7 @@ impl fmt::Display for WorkKind {
             Self::Evaluations => "evaluations",
             Self::Iterations => "iterations",
             Self::Layers => "layers",
+            Self::Depth => "depth",
         })
     }
 }

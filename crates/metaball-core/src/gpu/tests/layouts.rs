@@ -40,6 +40,7 @@ fn host_structs_are_their_twins() {
                 evaluations,
                 iterations,
                 layers,
+                depth,
                 longest_search
             }),
         ),
