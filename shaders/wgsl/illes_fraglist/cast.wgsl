@@ -140,7 +140,8 @@ fn recall_one(place: u32, end: u32) -> u32 {
 
 // Goes along the ray to its first root or its end.
 fn go_along(place: ptr<function, u32>) -> u32 {
-    while *place != lists::END {
+    // At the limit all is passed, also what the array had no room for.
+    while *place != lists::END && position < limit {
         if !budget::can_go_on() {
             return SPENT;
         }
