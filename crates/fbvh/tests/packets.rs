@@ -11,7 +11,7 @@ use proptest::prelude::*;
 
 /// The certified tree as it comes, and cut as small as it goes.
 fn trees(scene: &Scene) -> [Tree; 2] {
-    let small = Classes { leaf_size: 1, smallest_side: 0.1 };
+    let small = Classes { leaf_size: 1, smallest_side: 0.3 };
     let small = Options { structure: Structure::Certified(small), ..Options::certified() };
     [Options::certified(), small]
         .map(|options| Tree::build(scene, &options).expect("legal options"))

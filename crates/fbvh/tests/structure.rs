@@ -17,7 +17,7 @@ fn any_options() -> impl Strategy<Value = Options> {
         prop::sample::select(vec![Boxes::Cut, Boxes::Support, Boxes::PerNode, Boxes::PerBall]);
     let fitted = (boxes, prop::sample::select(vec![0u32, 12, 1000]))
         .prop_map(|(boxes, discard_up_to)| Structure::Fitted(Fitting { boxes, discard_up_to }));
-    let certified = (1u32..20, 0.02f32..0.5).prop_map(|(leaf_size, smallest_side)| {
+    let certified = (1u32..20, 0.06f32..1.4).prop_map(|(leaf_size, smallest_side)| {
         Structure::Certified(Classes { leaf_size, smallest_side })
     });
     let structure = prop_oneof![1 => Just(Structure::ModifiedBvh), 3 => fitted, 2 => certified];

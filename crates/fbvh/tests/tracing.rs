@@ -30,7 +30,7 @@ fn structures() -> [Options; 6] {
         fitted(Boxes::PerBall, 1000),
         Options::certified(),
         Options {
-            structure: Structure::Certified(Classes { leaf_size: 1, smallest_side: 0.1 }),
+            structure: Structure::Certified(Classes { leaf_size: 1, smallest_side: 0.3 }),
             ..Options::certified()
         },
     ]
