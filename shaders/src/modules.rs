@@ -109,6 +109,8 @@ pub const MODULES: &[Module] = &[
     import!("fbvh/local"),
     import!("fbvh/rises"),
     import!("fbvh/falls"),
+    import!("fbvh/quartic"),
+    import!("fbvh/no_look"),
     import!("fbvh/certified_leaf"),
     entry!("fbvh/trace"),
     import!("illes_fraglist/balls"),

@@ -9,6 +9,7 @@
 
 #import metaball::fbvh::excess::{bounds_on, SIGN, SOLID_ENDS}
 #import metaball::fbvh::local::{at, local_frame, Frame, UNIT}
+#import metaball::fbvh::look::{look, BELOW, LOOKS, ONCE, UNCLEAR}
 #import metaball::fbvh::structure::{leaves, lists, Leaf}
 #import metaball::fbvh::suspend::{can_walk, spent}
 #import metaball::hit::{HIT, INSIDE, UNDECIDED}
@@ -40,7 +41,7 @@ const SOLVE: u32 = 2u;
 
 // The search as it stands, in the leaf's local t: nothing before `low` reaches 0, the interval looked
 // at is from `low_value` to `high`; between the ends of a bracket, `high_value` is where the root is
-// next looked for. A hit leaves its global t in `high`.
+// next looked for. `iterations` counts looks. A hit leaves its global t in `high`.
 struct Search {
     stage: u32,
     next: u32,
@@ -136,6 +137,29 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         search = Search(NARROW, 0u, frame.enter, frame.enter, frame.leave, 0.0, 0u);
     }
 
+    while search.stage == NARROW && search.iterations < LOOKS {
+        if !can_walk(end - first + 1u) {
+            return WAITING;
+        }
+        let seen = look(frame, ray.direction, first, end, search.low, search.high);
+        let tells = seen.outcome != UNCLEAR || seen.low > search.low || seen.high < search.high;
+        search.iterations = select(LOOKS, search.iterations + 1u, tells);
+        if seen.outcome == BELOW && search.high >= frame.leave {
+            return MISSED;
+        }
+        if seen.outcome == ONCE {
+            if any_will_do() {
+                return found_at(max(at(frame, search.high), 0.0), HIT);
+            }
+            search.stage = SOLVE;
+            search.high_value = seen.guess;
+        } else {
+            search.low = select(seen.low, search.high, seen.outcome == BELOW);
+            search.low_value = search.low;
+            search.high = select(seen.high, frame.leave, seen.outcome == BELOW);
+        }
+    }
+
     while search.stage == NARROW {
         if !can_walk(end - first + 1u) {
             return WAITING;
@@ -204,7 +228,9 @@ fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         } else {
             search.low = t;
         }
-        let way = -value.x / select(value.y, 1.0, value.y == 0.0);
+        // Where the excess does not rise, as before the rim of a support, no step tells anything.
+        let is_flat = value.y <= 0.0;
+        let way = select(-value.x / select(value.y, 1.0, is_flat), 1e37, is_flat);
         var next = t + way;
         var is_last = way * (way * value.z) <= known * value.y;
         if next <= search.low || next >= search.high {

@@ -246,8 +246,10 @@ mod tests {
 
     #[test]
     fn host_structs_are_their_wgsl_twins() {
-        let choices: [&[&str]; 2] =
-            [&["ray/primary", "fbvh/leaf"], &["ray/free", "fbvh/certified_leaf", "fbvh/falls"]];
+        let choices: [&[&str]; 2] = [
+            &["ray/primary", "fbvh/leaf"],
+            &["ray/free", "fbvh/certified_leaf", "fbvh/falls", "fbvh/no_look"],
+        ];
         for chosen in choices {
             let variant = Variant {
                 kernel: KernelModule::Power,

@@ -5,6 +5,8 @@ use metaball_core::gpu::{
     frame_layout, scene_layout,
 };
 
+use metaball_core::{Kernel, KernelForm};
+
 use crate::{Kind, Reading, TraceOptions};
 
 /// Override constant of `ray/free.wgsl`: its `@id`.
@@ -88,7 +90,7 @@ impl TracePipelines {
         question: Option<Question>,
     ) -> Result<Self, RenderError> {
         let Specialized { scene, kind, root } = *specialized;
-        let spec = scene.choosing(modules(kind, question));
+        let spec = scene.choosing(modules(kind, &scene, question));
         // Section 4 leaves no choice: the modified BVH is always read literally.
         let clipped = kind == Kind::Fitted && options.reading == Reading::Clipped;
         // The ids of the override constants in fbvh/leaf.wgsl and fbvh/trace.wgsl.
@@ -115,15 +117,30 @@ impl TracePipelines {
 }
 
 /// Where rays come from, and how leaves are searched.
-fn modules(kind: Kind, question: Option<Question>) -> &'static [&'static str] {
+fn modules(
+    kind: Kind,
+    scene: &Specialization,
+    question: Option<Question>,
+) -> &'static [&'static str] {
+    let is_quartic = scene.kernel == Kernel::QUARTIC && scene.kernel_form == KernelForm::Known;
     match (kind, question) {
         (Kind::ModifiedBvh | Kind::Fitted, None) => &["ray/primary", "fbvh/leaf"],
         (Kind::ModifiedBvh | Kind::Fitted, Some(_)) => &["ray/free", "fbvh/leaf"],
-        (Kind::Certified, None) => &["ray/primary", "fbvh/certified_leaf", "fbvh/rises"],
-        (Kind::Certified, Some(Question::Exit)) => {
-            &["ray/free", "fbvh/certified_leaf", "fbvh/falls"]
+        (Kind::Certified, None) if is_quartic => {
+            &["ray/primary", "fbvh/certified_leaf", "fbvh/rises", "fbvh/quartic"]
         }
-        (Kind::Certified, Some(_)) => &["ray/free", "fbvh/certified_leaf", "fbvh/rises"],
+        (Kind::Certified, None) => {
+            &["ray/primary", "fbvh/certified_leaf", "fbvh/rises", "fbvh/no_look"]
+        }
+        (Kind::Certified, Some(Question::Exit)) => {
+            &["ray/free", "fbvh/certified_leaf", "fbvh/falls", "fbvh/no_look"]
+        }
+        (Kind::Certified, Some(_)) if is_quartic => {
+            &["ray/free", "fbvh/certified_leaf", "fbvh/rises", "fbvh/quartic"]
+        }
+        (Kind::Certified, Some(_)) => {
+            &["ray/free", "fbvh/certified_leaf", "fbvh/rises", "fbvh/no_look"]
+        }
     }
 }
 
