@@ -118,7 +118,8 @@ impl StabilityArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CertifyArgs {
-    /// Different rays, at least [default: 100000000, or 100000 with --quick].
+    /// Different rays, at least [default: 100000000, or 100000 with --quick]. A hundred million take two
+    /// cores ten minutes with --cpu, and longer with an adapter.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     rays: Option<u64>,
     /// A few values of each case, few rays a scene: seconds, to see that everything works.
