@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use metaball_core::{Kernel, Scene};
+use metaball_core::{Color, Kernel, Scene};
 
 use crate::cameras::framing;
 use crate::error::{Flaw, LoadError};
 use crate::file::{self, FileKind};
-use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
+use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, Particles};
 use crate::scene_file::{self, SceneFile};
 use crate::{BenchScene, Kind, generate, generators, known};
 
@@ -21,6 +21,8 @@ pub struct Overrides {
     pub exponent: Option<i64>,
     /// Another threshold T.
     pub threshold: Option<f32>,
+    /// One colour for all balls.
+    pub color: Option<Color>,
 }
 
 /// The scene of a spec: a name of [`known()`], a generator's `name:count[:density[:seed]]`, or the path
@@ -90,7 +92,12 @@ pub(crate) fn overridden(scene: Scene, overrides: &Overrides) -> Result<Scene, L
         (_, exponent) => kernel_named(&kernel.to_string(), exponent)?,
     };
     let threshold = overrides.threshold.unwrap_or(scene.threshold());
-    Ok(scene.with_kernel(kernel).with_threshold(threshold)?)
+    let count = scene.len();
+    let scene = scene.with_kernel(kernel).with_threshold(threshold)?;
+    match overrides.color {
+        Some(color) => Ok(scene.with_colors(vec![color; count])?),
+        None => Ok(scene),
+    }
 }
 
 fn from_file(path: &Path, kind: FileKind) -> Result<BenchScene, LoadError> {
@@ -110,9 +117,24 @@ pub(crate) fn in_file(
     kernel: Kernel,
     threshold: f32,
 ) -> Result<Scene, LoadError> {
+    scene_of(particles_in(path, kind)?, path, kernel, threshold)
+}
+
+/// The particles of a particle file.
+pub(crate) fn particles_in(path: &Path, kind: FileKind) -> Result<Particles, LoadError> {
     let bytes = file::read(path)?;
-    kind.parse(&bytes)
-        .and_then(|particles| particles.into_scene(kernel, threshold))
+    kind.parse(&bytes).map_err(|flaw| flaw.in_file(&path.display().to_string()))
+}
+
+/// The scene of a file's particles.
+pub(crate) fn scene_of(
+    particles: Particles,
+    path: &Path,
+    kernel: Kernel,
+    threshold: f32,
+) -> Result<Scene, LoadError> {
+    particles
+        .into_scene(kernel, threshold)
         .map_err(|flaw| flaw.in_file(&path.display().to_string()))
 }
 

@@ -5,7 +5,7 @@ use bench_scenes::{
     known, load, mean_overlap,
 };
 use glam::DVec3;
-use metaball_core::{Kernel, Scene};
+use metaball_core::{Color, Kernel, Scene};
 
 fn scene(spec: &str) -> BenchScene {
     load(spec, &Overrides::default()).expect("a known scene")
@@ -96,7 +96,7 @@ fn clear_scenes_have_no_grazing_rays() {
 #[test]
 fn overrides_replace_kernel_and_threshold() {
     let with = |kernel: Option<Kernel>, exponent, threshold| {
-        load("random-200", &Overrides { kernel, exponent, threshold })
+        load("random-200", &Overrides { kernel, exponent, threshold, color: None })
     };
     let quartic = with(Some(Kernel::QUARTIC), None, Some(0.1)).expect("legal").scene;
     assert_eq!((quartic.kernel(), quartic.threshold()), (Kernel::QUARTIC, 0.1));
@@ -110,6 +110,17 @@ fn overrides_replace_kernel_and_threshold() {
         with(None, None, Some(0.0)).expect_err("no threshold").to_string(),
         "threshold: needed a finite number above 0, found 0"
     );
+}
+
+#[test]
+fn an_override_colours_every_ball() {
+    let red = Color::srgb(255, 0, 0);
+    for spec in ["random-200", "molecule"] {
+        let overrides = Overrides { color: Some(red), ..Overrides::default() };
+        let scene = load(spec, &overrides).expect("legal").scene;
+        let colors = scene.colors().expect("coloured");
+        assert!(colors.len() == scene.len() && colors.iter().all(|color| *color == red));
+    }
 }
 
 #[test]

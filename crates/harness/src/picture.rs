@@ -4,7 +4,10 @@ use std::io::Cursor;
 
 use anyhow::Context;
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use metaball_core::Color;
 use metaball_core::gpu::{Image, Picture, WorkKind};
+
+use crate::camera::vector;
 
 /// Encodes an image as PNG: eight bits a channel, sRGB.
 ///
@@ -38,6 +41,18 @@ pub fn picture_named(name: &str) -> Result<Picture, String> {
     })
 }
 
+/// The colour of three sRGB-encoded channels from 0 to 1, with commas between.
+///
+/// # Errors
+/// When they are no colour.
+pub fn color_of(channels: &str) -> Result<Color, String> {
+    let found = vector(channels).ok();
+    let found = found.filter(|of| of.min_element() >= 0.0 && of.max_element() <= 1.0);
+    let encoded = 255.0 * found.ok_or("needed three numbers from 0 to 1, such as 0.2,0.5,0.9")?;
+    let [red, green, blue] = encoded.round().to_array().map(|channel| channel as u8);
+    Ok(Color::srgb(red, green, blue))
+}
+
 fn names() -> impl Iterator<Item = (String, Picture)> {
     let plain = [
         ("phong", Picture::Phong),
@@ -61,6 +76,14 @@ mod tests {
         assert_eq!(picture_named("work:leaf-tests"), Ok(Picture::Work(WorkKind::LeafTests)));
         let error = picture_named("work").expect_err("no counter named");
         assert!(error.contains("spheres, work:nodes"), "{error}");
+    }
+
+    #[test]
+    fn colors_have_three_channels() {
+        assert_eq!(color_of("0,0.5, 1"), Ok(Color::srgb(0, 128, 255)));
+        for wrong in ["0,0.5", "0,0,1.1", "-0.1,0,0", "red"] {
+            assert!(color_of(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -4,7 +4,6 @@
 
 pub mod auto;
 pub mod gourmel;
-pub mod gourmel_light;
 pub mod illes;
 pub mod kanamori;
 pub mod peers;

@@ -1,63 +1,36 @@
 //! The command `tables gourmel`: the tables of Gourmel et al. 2010, section 6, and the plots of a
-//! later implementation.
+//! later implementation. `tables gourmel-light`, in [`light`], is those of pictures with effects.
 
 pub mod compare;
+mod heading;
+pub mod light;
 mod page;
 pub mod paper;
 pub mod plan;
 pub mod run;
 pub mod settings;
 
-use std::collections::BTreeSet;
-use std::path::PathBuf;
-
-use anyhow::Context;
-use metaball_core::gpu::{AdapterChoice, Gpu};
+use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
 use self::compare::{Density, Row, Table, WorkRow};
-use self::plan::{Extent, Quantity, Series};
+pub use self::heading::Heading;
+use self::plan::{Quantity, Series};
 use self::run::{Run, Shoot};
 use self::settings::Setting;
-use crate::console::{self, Progress};
-use crate::machine::Provenance;
+use crate::console;
 use crate::numbers::decimal;
-use crate::output::{write_atomically, write_json};
-use crate::record::Adapter;
+use crate::tables::{Extent, Order};
 
 /// Name and version of the format of `gourmel.json`.
 pub const SCHEMA: &str = "metaball-tables-gourmel/1";
 
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Order {
-    /// The paper's scenes, or small ones.
-    pub extent: Extent,
-    /// Pixels across and down; where it is left open the paper's 640 × 480, on an adapter that
-    /// computes on the CPU 320 × 240, and 64 × 48 when quick.
-    pub size: Option<(u32, u32)>,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
-    /// Folder for `gourmel.json` and `gourmel.html`.
-    pub out: PathBuf,
-}
-
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// Where it comes from; its format is [`SCHEMA`].
+    /// Its format is [`SCHEMA`].
     #[serde(flatten)]
-    pub provenance: Provenance,
-    /// What drew.
-    pub adapter: Adapter,
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Cameras along each scene's path.
-    pub cameras: usize,
-    /// What a reader should know.
-    pub remarks: Vec<String>,
+    pub heading: Heading,
     /// The paper's tables of frame rates.
     pub tables: Vec<Table>,
     /// Table 3.
@@ -101,7 +74,7 @@ pub struct Point {
 pub fn tables(order: &Order) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, order.extent, shoot(&gpu, order))?;
+    let measurements = measure(&gpu, order.extent, heading::shoot(order, &gpu, (320, 240)));
     for table in &measurements.tables {
         console::line(&format!("\n{}: {}", table.name, table.title));
         console::line(&rows(table, &measurements.runs));
@@ -116,65 +89,25 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
     if let Some(why) = &measurements.density.why {
         console::line(&format!("  {why}"));
     }
-    let page = order.out.join("gourmel.html");
-    write_json(&order.out.join("gourmel.json"), &measurements)?;
-    write_atomically(&page, page::page(&measurements).as_bytes())?;
-    console::line(&format!("\n{}", page.display()));
-    anyhow::ensure!(!measurements.runs.is_empty(), "nothing could be measured; see the page");
-    Ok(())
+    let page = page::page(&measurements);
+    heading::write(order, "gourmel", &measurements, &page, measurements.runs.len())
 }
 
-/// Pictures that the adapter draws in bearable time.
-fn shoot(gpu: &Gpu, order: &Order) -> Shoot {
-    let (size, cameras) = match order.extent {
-        Extent::Quick => ((64, 48), 2),
-        Extent::Whole if gpu.report().is_software() => ((320, 240), 4),
-        Extent::Whole => ((640, 480), 16),
-    };
-    Shoot { size: order.size.unwrap_or(size), cameras }
-}
-
-fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> anyhow::Result<Measurements> {
-    let plan = extent.measurements();
-    let mut remarks = Vec::new();
-    if extent == Extent::Quick {
-        remarks
-            .push("Quick: scenes of a few hundred balls in the place of the paper's.".to_owned());
-    }
-    if gpu.report().is_software() {
-        remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
-    }
-    let settings: usize = plan.values().map(BTreeSet::len).sum();
-    let progress = Progress::new(settings as u64 * shoot.steps());
-    let mut done = 0;
-    let mut runs = Vec::new();
-    for (spec, settings) in &plan {
-        let measured = run::measure(gpu, spec, settings, shoot, &progress)
-            .with_context(|| format!("scene {spec}"))
-            .unwrap_or_else(|error| vec![Err(error)]);
-        for run in measured {
-            match run {
-                Ok(run) => runs.push(run),
-                Err(error) => remarks.push(format!("{error:#}")),
-            }
-        }
-        done += settings.len() as u64 * shoot.steps();
-        progress.reach(done);
-    }
-    drop(progress);
-    Ok(Measurements {
-        provenance: Provenance::here(SCHEMA),
-        adapter: Adapter::from(gpu.report()),
-        width: shoot.size.0,
-        height: shoot.size.1,
-        cameras: shoot.cameras,
-        remarks,
+fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> Measurements {
+    let mut heading = Heading::new(SCHEMA, gpu, extent, shoot);
+    let scenes = extent.measurements().into_iter();
+    let scenes = scenes.map(|(spec, settings)| (spec, settings.into_iter().collect()));
+    let runs = heading.measure(scenes, shoot.steps(), |spec, settings, progress| {
+        run::measure(gpu, spec, settings, shoot, progress)
+    });
+    Measurements {
+        heading,
         tables: compare::tables(extent, &runs),
         work_table: compare::work_table(extent, &runs),
         density: compare::density(extent, &runs),
         series: lines(extent, &runs),
         runs,
-    })
+    }
 }
 
 fn lines(extent: Extent, runs: &[Run]) -> Vec<Line> {
@@ -241,7 +174,7 @@ mod tests {
     fn every_cell_of_every_table_is_measured() {
         let Some(gpu) = Gpu::for_test() else { return };
         let shoot = Shoot { size: (32, 24), cameras: 2 };
-        let measurements = measure(&gpu, Extent::Quick, shoot).expect("measured");
+        let measurements = measure(&gpu, Extent::Quick, shoot);
         for table in &measurements.tables {
             for row in &table.rows {
                 assert_eq!(row.ratio.is_some(), row.paper_ratio.is_some(), "{row:?}");
@@ -255,7 +188,7 @@ mod tests {
         let text = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&text).expect("as written");
         assert_eq!(
-            (back.provenance.schema.as_str(), back.runs.len()),
+            (back.heading.provenance.schema.as_str(), back.runs.len()),
             (SCHEMA, measurements.runs.len())
         );
         let page = page::page(&measurements);

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use anyhow::{Context, ensure};
-use bench_scenes::NumberedPath;
+use bench_scenes::{NumberedPath, Overrides};
 use clap::Args;
 use harness::animate::{self, animate};
 use harness::auto::MAX_ERROR;
@@ -12,8 +12,9 @@ use harness::auto::cache::Cache;
 use harness::camera::CameraOptions;
 use harness::light::LightOptions;
 use harness::methods::find;
-use harness::picture::picture_named;
+use harness::picture::{color_of, picture_named};
 use harness::render::{Choosing, Device, Drawing, Order, render};
+use metaball_core::Color;
 use metaball_core::gpu::Picture;
 
 use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
@@ -35,6 +36,9 @@ pub(crate) struct DrawingArgs {
     /// Trace on the CPU, without a graphics adapter: what happens anyway where there is none.
     #[arg(long, conflicts_with_all = ["adapter", "software"])]
     cpu: bool,
+    /// One colour for all balls, sRGB, 0 to 1; the scene's own, or white, when left out.
+    #[arg(long, value_name = "R,G,B", value_parser = color_of)]
+    color: Option<Color>,
     #[command(flatten)]
     camera: CameraOptions,
     #[command(flatten)]
@@ -46,10 +50,10 @@ pub(crate) struct DrawingArgs {
 impl DrawingArgs {
     /// With the default method where another is chosen in its place.
     fn drawing(self) -> anyhow::Result<Drawing> {
-        let Self { scene, method, picture, cpu, camera, light, shared } = self;
+        let Self { scene, method, picture, cpu, color, camera, light, shared } = self;
         let name = method.as_deref().filter(|&name| name != AUTO).unwrap_or(DEFAULT_METHOD);
         let method = find(name).with_context(|| format!("no method is called {name}"))?;
-        let (overrides, size) = (shared.overrides(), shared.size);
+        let (overrides, size) = (Overrides { color, ..shared.overrides() }, shared.size);
         let device = if cpu { Device::Cpu } else { Device::Adapter(shared.device.choice()) };
         Ok(Drawing { scene, overrides, method, size, camera, picture, light, device })
     }

@@ -181,8 +181,12 @@ mod tests {
         assert_eq!((names.as_slice(), compare.frames), (&["bvh", "fbvh"][..], Some(2)));
         assert_eq!(compare.shared.size, (32, 24));
         assert_eq!(compare.shared.device.choice(), AdapterChoice::Named("llvm".to_owned()));
-        let wanted =
-            Overrides { kernel: Some(Kernel::Wyvill), exponent: Some(3), threshold: Some(0.5) };
+        let wanted = Overrides {
+            kernel: Some(Kernel::Wyvill),
+            exponent: Some(3),
+            threshold: Some(0.5),
+            color: None,
+        };
         assert_eq!(compare.shared.overrides(), wanted);
     }
 

@@ -28,7 +28,8 @@ pub(crate) struct PictureArgs {
 
 impl PictureArgs {
     pub(crate) fn overrides(&self) -> Overrides {
-        Overrides { kernel: self.kernel, exponent: self.exponent, threshold: self.threshold }
+        let &Self { kernel, exponent, threshold, .. } = self;
+        Overrides { kernel, exponent, threshold, color: None }
     }
 }
 

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use harness::tables::{
-    Extent, Order, TEN_MINUTES, auto, gourmel, gourmel_light, illes, kanamori, peers,
-    specialisation,
+    Extent, Order, TEN_MINUTES, auto, gourmel, illes, kanamori, peers, specialisation,
 };
 
 use crate::shared::AdapterArgs;
@@ -104,17 +103,8 @@ impl TablesCommand {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         let time = |full: bool| (!full).then_some(TEN_MINUTES);
         match self {
-            Self::Gourmel(TablesArgs { quick, size, out, device }) => {
-                use gourmel::plan::Extent;
-                let extent = if quick { Extent::Quick } else { Extent::Whole };
-                gourmel::tables(&gourmel::Order { extent, size, adapter: device.choice(), out })
-            }
-            Self::GourmelLight(TablesArgs { quick, size, out, device }) => {
-                use gourmel::plan::Extent;
-                use gourmel_light::{Order, tables};
-                let extent = if quick { Extent::Quick } else { Extent::Whole };
-                tables(&Order { extent, size, adapter: device.choice(), out })
-            }
+            Self::Gourmel(tables) => gourmel::tables(&tables.order()),
+            Self::GourmelLight(tables) => gourmel::light::tables(&tables.order()),
             Self::Kanamori { full, tables } => kanamori::tables(&tables.order(), time(full)),
             Self::Illes { full, tables } => illes::tables(&tables.order(), time(full)),
             Self::Peers { scenes, quick, size, out } => {

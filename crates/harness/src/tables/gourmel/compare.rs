@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::paper::{COUNTED, Counts, PRINTED, Printed, Rate};
-use super::plan::{Extent, Place, scaled_molecule};
+use super::plan::{Place, scaled_molecule};
 use super::run::Run;
 use super::settings::Setting;
 use crate::numbers::decimal;
+use crate::tables::Extent;
 
 /// A factor beyond which a difference to the paper is explained.
 pub const NOTABLE: f64 = 1.5;

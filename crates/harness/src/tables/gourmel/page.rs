@@ -5,21 +5,17 @@ use super::run::Run;
 use super::{DENSITY_HEADINGS, Line, Measurements, Point, density_rows};
 use crate::html::{escape, section};
 use crate::numbers::{decimal, grouped};
-use crate::page::{self, fact, remark_paragraphs, run_facts};
+use crate::page::{self, remark_paragraphs};
 use crate::plot::line_plot;
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let frames = format!("one from each of {} cameras along the path", measurements.cameras);
-    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter))
-        + &fact("Picture", &format!("{} × {} pixels", measurements.width, measurements.height))
-        + &fact("Frames", &frames);
     let tables: String =
         measurements.tables.iter().map(|table| rates(table, measurements)).collect();
     let series: String = measurements.series.iter().map(|line| plot(line, measurements)).collect();
     let parts = [
-        ("facts", facts),
-        ("remarks", remark_paragraphs(&measurements.remarks)),
+        ("facts", measurements.heading.facts()),
+        ("remarks", remark_paragraphs(&measurements.heading.remarks)),
         (
             "tables",
             tables + &work(&measurements.work_table) + &density(&measurements.density) + &series,

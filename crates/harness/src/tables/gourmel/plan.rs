@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::paper::{COUNTED, PRINTED};
 use super::settings::Setting;
+use crate::tables::Extent;
 
 /// A scene of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,15 +21,6 @@ pub enum Place {
     Molecule,
     /// The pool of 10,000 balls.
     Pool,
-}
-
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// The paper's scenes.
-    Whole,
-    /// Scenes of a few hundred balls in their place, to see that everything works.
-    Quick,
 }
 
 /// A line in a plot: frame time over a quantity.

@@ -1,6 +1,6 @@
 //! Measuring structures on a scene, in turn.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
@@ -119,7 +119,7 @@ const BUILDS: usize = 3;
 pub fn measure(
     gpu: &Gpu,
     spec: &str,
-    settings: &BTreeSet<Setting>,
+    settings: &[Setting],
     shoot: Shoot,
     progress: &Progress,
 ) -> anyhow::Result<Vec<anyhow::Result<Run>>> {

@@ -7,18 +7,14 @@ use super::{
 };
 use crate::html::{escape, section};
 use crate::numbers::decimal;
-use crate::page::{self, fact, remark_paragraphs, run_facts};
+use crate::page::{self, remark_paragraphs};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let frames = format!("one from each of {} cameras along the path", measurements.cameras);
-    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter))
-        + &fact("Picture", &format!("{} × {} pixels", measurements.width, measurements.height))
-        + &fact("Frames", &frames);
     let gains = table(GAINS_TITLE, &GAIN_HEADINGS, &gain_rows(&measurements.gains));
     let parts = [
-        ("facts", facts),
-        ("remarks", remark_paragraphs(&measurements.remarks)),
+        ("facts", measurements.heading.facts()),
+        ("remarks", remark_paragraphs(&measurements.heading.remarks)),
         ("tables", costs(&measurements.costs) + &gains + &runs(&measurements.runs)),
     ];
     page::page(

@@ -6,7 +6,7 @@ use super::effect::Effect;
 use super::paper::{COST_EFFECTS, COSTS, Costs, GAINS, Gain};
 use super::run::{PassKind, Run, Wanted};
 use crate::numbers::decimal;
-use crate::tables::gourmel::plan::Extent;
+use crate::tables::Extent;
 
 /// The paper's structures, and the one beside them.
 pub const METHODS: [&str; 3] = ["bvh", FITTED, "fbvh-certified"];

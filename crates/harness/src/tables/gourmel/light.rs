@@ -7,55 +7,26 @@ mod page;
 pub mod paper;
 pub mod run;
 
-use std::path::PathBuf;
-
-use anyhow::Context;
-use metaball_core::gpu::{AdapterChoice, Gpu};
+use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
 use self::compare::{CostRow, GainRow};
 use self::run::Run;
-use crate::console::{self, Progress};
-use crate::machine::Provenance;
+use super::heading::{self, Heading};
+use super::run::Shoot;
+use crate::console;
 use crate::numbers::decimal;
-use crate::output::{write_atomically, write_json};
-use crate::record::Adapter;
-use crate::tables::gourmel::plan::Extent;
-use crate::tables::gourmel::run::Shoot;
+use crate::tables::{Extent, Order};
 
 /// Name and version of the format of `gourmel-light.json`.
 pub const SCHEMA: &str = "metaball-tables-gourmel-light/1";
 
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Order {
-    /// The paper's scenes, or small ones.
-    pub extent: Extent,
-    /// Pixels across and down; where it is left open the paper's 640 × 480, on an adapter that
-    /// computes on the CPU 160 × 120, and 64 × 48 when quick.
-    pub size: Option<(u32, u32)>,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
-    /// Folder for `gourmel-light.json` and `gourmel-light.html`.
-    pub out: PathBuf,
-}
-
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// Where it comes from; its format is [`SCHEMA`].
+    /// Its format is [`SCHEMA`].
     #[serde(flatten)]
-    pub provenance: Provenance,
-    /// What drew.
-    pub adapter: Adapter,
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Cameras along each scene's path.
-    pub cameras: usize,
-    /// What a reader should know.
-    pub remarks: Vec<String>,
+    pub heading: Heading,
     /// Table 2.
     pub costs: Vec<CostRow>,
     /// Table 1.
@@ -71,7 +42,7 @@ pub struct Measurements {
 pub fn tables(order: &Order) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, order.extent, shoot(&gpu, order));
+    let measurements = measure(&gpu, order.extent, heading::shoot(order, &gpu, (160, 120)));
     console::line(&format!("\n{COSTS_TITLE}"));
     console::line(&console::table(&COST_HEADINGS, &cost_rows(&measurements.costs)));
     for row in &measurements.costs {
@@ -81,62 +52,21 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
     }
     console::line(&format!("\n{GAINS_TITLE}"));
     console::line(&console::table(&GAIN_HEADINGS, &gain_rows(&measurements.gains)));
-    for remark in &measurements.remarks {
+    for remark in &measurements.heading.remarks {
         console::line(&format!("  {remark}"));
     }
-    let page = order.out.join("gourmel-light.html");
-    write_json(&order.out.join("gourmel-light.json"), &measurements)?;
-    write_atomically(&page, page::page(&measurements).as_bytes())?;
-    console::line(&format!("\n{}", page.display()));
-    anyhow::ensure!(!measurements.runs.is_empty(), "nothing could be measured; see the page");
-    Ok(())
-}
-
-/// Pictures that the adapter draws in bearable time.
-fn shoot(gpu: &Gpu, order: &Order) -> Shoot {
-    let (size, cameras) = match order.extent {
-        Extent::Quick => ((64, 48), 2),
-        Extent::Whole if gpu.report().is_software() => ((160, 120), 4),
-        Extent::Whole => ((640, 480), 16),
-    };
-    Shoot { size: order.size.unwrap_or(size), cameras }
+    let page = page::page(&measurements);
+    heading::write(order, "gourmel-light", &measurements, &page, measurements.runs.len())
 }
 
 fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> Measurements {
-    let plan = compare::measurements(extent);
-    let mut remarks = Vec::new();
-    if extent == Extent::Quick {
-        remarks
-            .push("Quick: scenes of a few hundred balls in the place of the paper's.".to_owned());
-    }
-    if gpu.report().is_software() {
-        remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
-    }
-    let pairs: usize = plan.iter().map(|(_, wanted)| wanted.len()).sum();
-    let progress = Progress::new(pairs as u64 * run::steps(shoot));
-    let mut done = 0;
-    let mut runs = Vec::new();
-    for (spec, wanted) in &plan {
-        let measured = run::measure(gpu, spec, wanted, shoot, &progress)
-            .with_context(|| format!("scene {spec}"))
-            .unwrap_or_else(|error| vec![Err(error)]);
-        for run in measured {
-            match run {
-                Ok(run) => runs.push(run),
-                Err(error) => remarks.push(format!("{error:#}")),
-            }
-        }
-        done += wanted.len() as u64 * run::steps(shoot);
-        progress.reach(done);
-    }
-    drop(progress);
+    let mut heading = Heading::new(SCHEMA, gpu, extent, shoot);
+    let scenes = compare::measurements(extent);
+    let runs = heading.measure(scenes, run::steps(shoot), |spec, wanted, progress| {
+        run::measure(gpu, spec, wanted, shoot, progress)
+    });
     Measurements {
-        provenance: Provenance::here(SCHEMA),
-        adapter: Adapter::from(gpu.report()),
-        width: shoot.size.0,
-        height: shoot.size.1,
-        cameras: shoot.cameras,
-        remarks,
+        heading,
         costs: compare::costs(extent, &runs),
         gains: compare::gains(extent, &runs),
         runs,
@@ -194,7 +124,7 @@ mod tests {
         let text = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&text).expect("as written");
         assert_eq!(
-            (back.provenance.schema.as_str(), back.runs.len()),
+            (back.heading.provenance.schema.as_str(), back.runs.len()),
             (SCHEMA, measurements.runs.len())
         );
         let page = page::page(&measurements);
