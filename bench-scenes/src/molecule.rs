@@ -37,7 +37,7 @@ pub(crate) fn particles_of(atoms: &[Atom]) -> Particles {
     Particles {
         balls: atoms.iter().map(ball).collect(),
         colors: Some(atoms.iter().map(|atom| color(atom.element)).collect()),
-        lines: Vec::new(),
+        ..Particles::default()
     }
 }
 

@@ -12,7 +12,7 @@ use crate::exact::turn;
 use crate::file::{self, FileKind};
 use crate::generate::{self, Recipe};
 use crate::known::KnownScene;
-use crate::load::{Overrides, in_file, open_scene_file, overridden};
+use crate::load::{Overrides, open_scene_file, overridden, particles_in, scene_of};
 use crate::numbered::NumberedPath;
 use crate::packed_frames::PackedFrames;
 use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
@@ -50,8 +50,15 @@ enum Motion {
     Swaying { rest: Scene, modes: PackedFrames },
     /// Frames of equal balls.
     Packed { frames: PackedFrames, kernel: Kernel, threshold: f32 },
-    /// A file for each frame.
-    Files { files: NumberedPath, kind: FileKind, kernel: Kernel, threshold: f32 },
+    /// A file for each frame. Where files leave the radius to the particles' spacing, all frames have
+    /// the same: a surface does not breathe, and shaders are made once.
+    Files {
+        files: NumberedPath,
+        kind: FileKind,
+        kernel: Kernel,
+        threshold: f32,
+        spaced_radius: Option<f32>,
+    },
 }
 
 /// The moving scenes that have a name, each with one sentence on what it shows. Generators that
@@ -70,7 +77,8 @@ impl Moving {
     /// particle file for each frame (`fluid-%04d.xyz`), a scene file that names such particles, or a
     /// `.frames` file. The numbers of files are those of frames.
     ///
-    /// The camera of files is the scene file's, or one that frames the first and the last of them.
+    /// The camera of files is the scene file's, or one that frames the first and the last of them. Where
+    /// they leave the radius to the particles' spacing, that of the first readable file is every frame's.
     ///
     /// # Errors
     /// As [`load`](crate::load()); and where the spec's scene does not move.
@@ -189,7 +197,9 @@ impl Moving {
             });
         };
         let seen = if camera.is_some() { vec![] } else { vec![*first, *last] };
-        let motion = Motion::Files { files, kind, kernel, threshold };
+        let readable = |number: &u32| particles_in(&files.path(*number), kind).ok();
+        let spaced_radius = numbers.iter().find_map(readable).and_then(|first| first.spaced_radius);
+        let motion = Motion::Files { files, kind, kernel, threshold, spaced_radius };
         let range = *first..last.saturating_add(1);
         let framed = Self::new(name, motion, range, Vec3::new(0.4, 0.3, 1.0), &seen)?;
         Ok(Self { camera: camera.unwrap_or(framed.camera), ..framed })
@@ -214,8 +224,14 @@ impl Motion {
                 let balls = frames.frame(number).balls;
                 Ok(Scene::new(balls, *kernel, *threshold)?)
             }
-            Self::Files { files, kind, kernel, threshold } => {
-                in_file(&files.path(number), *kind, *kernel, *threshold)
+            Self::Files { files, kind, kernel, threshold, spaced_radius } => {
+                let path = files.path(number);
+                let particles = particles_in(&path, *kind)?;
+                let particles = match spaced_radius {
+                    Some(radius) => particles.respaced(*radius),
+                    None => particles,
+                };
+                scene_of(particles, &path, *kernel, *threshold)
             }
         }
     }

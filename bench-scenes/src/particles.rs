@@ -20,9 +20,20 @@ pub(crate) struct Particles {
     pub(crate) colors: Option<Vec<Color>>,
     /// The line of each ball, counted from 1; empty where the file has no lines.
     pub(crate) lines: Vec<usize>,
+    /// The radius that all balls were given by their spacing; `None` where the file or elements say it.
+    pub(crate) spaced_radius: Option<f32>,
 }
 
 impl Particles {
+    /// The same with another radius, if theirs is by their spacing.
+    pub(crate) fn respaced(mut self, radius: f32) -> Self {
+        if self.spaced_radius.is_some() {
+            self.spaced_radius = Some(radius);
+            self.balls.iter_mut().for_each(|ball| ball.radius = radius);
+        }
+        self
+    }
+
     /// The scene of these particles.
     pub(crate) fn into_scene(self, kernel: Kernel, threshold: f32) -> Result<Scene, Flaw> {
         let scene = Scene::new(self.balls, kernel, threshold).map_err(|error| {

@@ -59,8 +59,10 @@ fn particles(rows: &[Row]) -> Particles {
         (Some(atoms), spacing) if spacing.is_none_or(|spacing| are_apart(&atoms, spacing)) => {
             particles_of(&atoms)
         }
-        (_, Some(spacing)) => balls(&|_| 2.0 * spacing),
-        (_, None) => balls(&|_| 1.0),
+        (_, spacing) => {
+            let radius = spacing.map_or(1.0, |spacing| 2.0 * spacing);
+            Particles { spaced_radius: Some(radius), ..balls(&|_| radius) }
+        }
     }
 }
 

@@ -141,6 +141,32 @@ fn numbered_files_are_frames() {
 }
 
 #[test]
+fn frames_without_radii_have_that_of_the_first() {
+    let folder = folder("spaced");
+    let write = |number: u32, spacing: u32| {
+        let table = format!("3\n\nbead 0 0 0\nbead {spacing} 0 0\nbead {} 0 0\n", 2 * spacing);
+        fs::write(folder.join(format!("p{number}.xyz")), table).expect("writable");
+    };
+    write(2, 3);
+    write(3, 5);
+    let text = "particles = 'p%d.xyz'\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
+    fs::write(folder.join("scene.toml"), text).expect("writable");
+    let radius = |number| {
+        let moving = get(&folder.join("scene.toml").display().to_string()).expect("legal");
+        moving.frame(number).expect("a file").supports()[0].radius
+    };
+    assert_eq!([2, 3].map(radius), [6.0, 6.0], "twice the spacing in the first");
+    fs::write(folder.join("p1.xyz"), "broken").expect("writable");
+    assert_eq!([2, 3].map(radius), [6.0, 6.0], "the first that can be read");
+    write(1, 5);
+    assert_eq!([2, 3].map(radius), [10.0, 10.0]);
+    // What says its radius keeps it.
+    let own = "1\nProperties=pos:R:3:radius:R:1\n0 0 0 0.5\n";
+    fs::write(folder.join("p4.xyz"), own).expect("writable");
+    assert_eq!(radius(4), 0.5);
+}
+
+#[test]
 fn what_does_not_move_says_what_does() {
     for spec in ["scattered:500", "dam-break", "nosuch", "p.csv"] {
         let message = get(spec).expect_err("still").to_string();
