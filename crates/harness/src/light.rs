@@ -32,7 +32,7 @@ const DEPTH_CUE_WIDTH: f32 = 0.02;
 const FLOOR_REACH: f32 = 3.0;
 
 /// Its colour, linear.
-const FLOOR_COLOR: Vec3 = Vec3::new(0.55, 0.55, 0.54);
+const FLOOR_COLOR: Vec3 = Vec3::new(0.60, 0.56, 0.50);
 
 /// Tiles of a floor along the scene's radius.
 const TILES_PER_RADIUS: f32 = 5.0;
@@ -52,27 +52,29 @@ pub struct LightOptions {
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     lamp: Vec<Vec3>,
     /// Width of all lamps in degrees, for soft shadows; 0 for hard ones.
-    #[arg(long, value_name = "DEGREES", requires = "shadows")]
+    #[arg(long, value_name = "DEGREES", requires = "shadows", allow_negative_numbers = true)]
     lamp_size: Option<f32>,
     /// Rays from each surface point that feel for the surroundings.
     #[arg(long, value_name = "RAYS", value_parser = clap::value_parser!(u32).range(1..))]
     ambient_occlusion: Option<u32>,
     /// Where occlusion rays end, scene units; they feel the whole scene when left out.
     #[arg(long, value_name = "LENGTH", requires = "ambient_occlusion")]
+    #[arg(allow_negative_numbers = true)]
     occlusion_reach: Option<f32>,
     /// Levels of mirror reflection; 0 mirrors the surroundings alone.
     #[arg(long, value_name = "LEVELS", conflicts_with = "refraction")]
     reflections: Option<u32>,
     /// Share of light mirrored at normal incidence, 0 to 1; 0.3 when left out.
-    #[arg(long, value_name = "SHARE", requires = "reflections")]
+    #[arg(long, value_name = "SHARE", requires = "reflections", allow_negative_numbers = true)]
     reflectivity: Option<f32>,
     /// A clear fluid of this index of refraction, such as 1.33. Needs the certified tree.
-    #[arg(long, value_name = "INDEX")]
+    #[arg(long, value_name = "INDEX", allow_negative_numbers = true)]
     #[arg(conflicts_with_all = ["shadows", "ambient_occlusion", "cel"])]
     refraction: Option<f32>,
     /// What the fluid takes up of red, green and blue per scene unit; a little red over the scene's
     /// radius when left out.
     #[arg(long, value_name = "R,G,B", value_parser = vector, requires = "refraction")]
+    #[arg(allow_hyphen_values = true)]
     absorption: Option<Vec3>,
     /// Surfaces seen through each other in the fluid; 8 when left out.
     #[arg(long, value_name = "N", requires = "refraction")]
@@ -87,7 +89,7 @@ pub struct LightOptions {
     #[arg(long, value_name = "BANDS", value_parser = clap::value_parser!(u32).range(1..))]
     cel: Option<u32>,
     /// Darken what lies behind something near, around it: depth-cued unsharp masking, such as 1.
-    #[arg(long, value_name = "STRENGTH")]
+    #[arg(long, value_name = "STRENGTH", allow_negative_numbers = true)]
     depth_cue: Option<f32>,
     /// Paths of light a pixel; more than one smooths edges. 1 when left out, 64 in a fluid.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -158,14 +160,19 @@ impl LightOptions {
             effects: self.effects(camera, scene)?,
             samples: self.samples.unwrap_or(fallback),
             seed: self.seed.unwrap_or_default(),
-            depth_cue: self.depth_cue,
-            stops: self.exposure.unwrap_or_default(),
+            depth_cue: self.depth_cue.map(|cue| at_least(0.0, "--depth-cue", cue)).transpose()?,
+            stops: at_least(f32::MIN, "--exposure", self.exposure.unwrap_or_default())?,
         })
     }
 
     fn effects(&self, camera: &Camera, scene: &Scene) -> anyhow::Result<Effects> {
         let base = Effects::phong(camera);
-        let diameter = at_least(0.0, "--lamp-size", self.lamp_size.unwrap_or_default())?;
+        let diameter = self.lamp_size.unwrap_or_default();
+        ensure!(
+            (0.0..=180.0).contains(&diameter),
+            "--lamp-size: needed degrees from 0 to 180, found {diameter}"
+        );
+        ensure!(!self.lamp.contains(&Vec3::ZERO), "--lamp: needed a direction, found 0,0,0");
         let lamps = if self.lamp.is_empty() {
             base.lamps.iter().map(|lamp| Lamp { diameter, ..*lamp }).collect()
         } else {
@@ -173,7 +180,8 @@ impl LightOptions {
             let color = base.lamps[0].color / self.lamp.len() as f32;
             self.lamp.iter().map(|&toward| Lamp { toward, diameter, color }).collect()
         };
-        let reach = at_least(0.0, "--occlusion-reach", self.occlusion_reach.unwrap_or(NO_LIMIT))?;
+        let reach = self.occlusion_reach.map(|reach| at_least(0.0, "--occlusion-reach", reach));
+        let reach = reach.transpose()?.unwrap_or(NO_LIMIT);
         Ok(Effects {
             surface: self.surface(radius_of(scene))?,
             lamps,
@@ -194,7 +202,10 @@ impl LightOptions {
 
     fn surface(&self, radius: f32) -> anyhow::Result<Surface> {
         if let Some(refraction) = self.refraction {
-            ensure!(refraction > 0.0, "--refraction: needed an index above 0, found {refraction}");
+            ensure!(
+                refraction > 0.0 && refraction.is_finite(),
+                "--refraction: needed a finite index above 0, found {refraction}"
+            );
             let watery = Vec3::new(0.9, 0.28, 0.12) / radius;
             let absorption = self.absorption.unwrap_or(watery);
             ensure!(
@@ -296,7 +307,9 @@ pub fn write_light(path: &Path, film: &Film) -> anyhow::Result<()> {
     write_atomically(path, file.get_ref())
 }
 
+/// The finite number that an option has, not below the least.
 fn at_least(least: f32, option: &str, found: f32) -> anyhow::Result<f32> {
+    ensure!(found.is_finite(), "{option}: needed a finite number, found {found}");
     ensure!(found >= least, "{option}: needed at least {least}, found {found}");
     Ok(found)
 }
@@ -359,19 +372,26 @@ pub(crate) mod tests {
     #[test]
     fn nonsense_is_named() {
         let bench = load("two-merging", &Overrides::default()).expect("known");
-        let message = |options: LightOptions| {
-            let lighting = options.lighting(&bench.camera, &bench.scene);
-            lighting.err().expect("refused").to_string()
+        let message = |line: &str| {
+            let lighting = options(line).lighting(&bench.camera, &bench.scene);
+            lighting.err().expect(line).to_string()
         };
-        let refraction = LightOptions { refraction: Some(0.0), ..Default::default() };
-        assert!(message(refraction).starts_with("--refraction"));
-        let share = Some(2.0);
-        let mirror =
-            LightOptions { reflections: Some(1), reflectivity: share, ..Default::default() };
-        assert!(message(mirror).starts_with("--reflectivity"));
-        let path = Some(PathBuf::from("nowhere.hdr"));
-        let environment = LightOptions { environment: path, ..Default::default() };
-        assert_eq!(message(environment), "cannot open nowhere.hdr");
+        for (before, option, values) in [
+            ("", "--refraction", &["0", "-1", "inf"][..]),
+            ("--refraction 1.33 ", "--absorption", &["0,-1,0"]),
+            ("--reflections 1 ", "--reflectivity", &["2", "-0.1", "nan"]),
+            ("", "--lamp", &["0,0,0"]),
+            ("--shadows ", "--lamp-size", &["-1", "181", "nan"]),
+            ("--ambient-occlusion 4 ", "--occlusion-reach", &["-1", "nan"]),
+            ("", "--depth-cue", &["-1", "inf"]),
+            ("", "--exposure", &["nan"]),
+        ] {
+            for value in values {
+                let message = message(&format!("{before}{option} {value}"));
+                assert!(message.starts_with(&format!("{option}: needed")), "{message}");
+            }
+        }
+        assert_eq!(message("--environment nowhere.hdr"), "cannot open nowhere.hdr");
     }
 
     #[test]
