@@ -4,7 +4,6 @@ use metaball_core::gpu::{
     Binding, Gpu, Question, RenderError, Specialization, bind_group_layout, compute_pipeline,
     frame_layout, scene_layout,
 };
-
 use metaball_core::{Kernel, KernelForm};
 
 use crate::{Kind, Reading, TraceOptions};

@@ -5,13 +5,13 @@ use super::run::{PassKind, Run};
 use super::{
     COST_HEADINGS, COSTS_TITLE, GAIN_HEADINGS, GAINS_TITLE, Measurements, cost_rows, gain_rows,
 };
-use crate::html::{escape, section};
+use crate::html::{escape, table};
 use crate::numbers::decimal;
 use crate::page::{self, remark_paragraphs};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let gains = table(GAINS_TITLE, &GAIN_HEADINGS, &gain_rows(&measurements.gains));
+    let gains = table(GAINS_TITLE, &GAIN_HEADINGS, &[0, 1], &gain_rows(&measurements.gains));
     let parts = [
         ("facts", measurements.heading.facts()),
         ("remarks", remark_paragraphs(&measurements.heading.remarks)),
@@ -30,7 +30,7 @@ fn costs(rows: &[CostRow]) -> String {
         Some(format!("<p>{}, {}: {}</p>\n", escape(&row.scene), escape(&row.effect), escape(why)))
     };
     let reasons: String = rows.iter().filter_map(why).collect();
-    table(COSTS_TITLE, &COST_HEADINGS, &cost_rows(rows)) + &reasons
+    table(COSTS_TITLE, &COST_HEADINGS, &[0, 1], &cost_rows(rows)) + &reasons
 }
 
 fn runs(runs: &[Run]) -> String {
@@ -45,14 +45,6 @@ fn runs(runs: &[Run]) -> String {
         let passes = PassKind::ALL.map(|kind| decimal(run.pass_ms(kind)));
         texts.into_iter().chain(passes).chain([run.doubts.to_string()]).collect()
     };
-    table("Where the time goes, ms", &headings, &runs.iter().map(row).collect::<Vec<_>>())
-}
-
-fn table(title: &str, headings: &[&str], rows: &[Vec<String>]) -> String {
-    let headings: String = headings.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let row = |cells: &Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("<td>{}</td>", escape(cell))).collect();
-        format!("<tr>{cells}</tr>\n")
-    };
-    section(title, &headings, &rows.iter().map(row).collect::<String>())
+    let rows: Vec<_> = runs.iter().map(row).collect();
+    table("Where the time goes, ms", &headings, &[0, 1, 2], &rows)
 }
