@@ -6,7 +6,7 @@ use std::hint::black_box;
 use bench_scenes::Overrides;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fbvh::{Options, TraceOptions, Tracer, Tree};
-use metaball_core::{Camera, Ray};
+use metaball_core::View;
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
@@ -20,21 +20,12 @@ const STRUCTURES: [(&str, Options); 3] = [
     ("fbvh-certified", Options::certified()),
 ];
 
-fn rays_of(camera: &Camera) -> Vec<Ray> {
-    let ray = |pixel| {
-        let (column, row) = (pixel % WIDTH, pixel / WIDTH);
-        let direction = camera.exact_direction(column, row, WIDTH, HEIGHT);
-        Ray::new(camera.eye(), direction.as_vec3())
-    };
-    (0..WIDTH * HEIGHT).map(ray).collect()
-}
-
 fn trace(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("trace");
     group.sample_size(10);
     for name in SCENES {
         let bench = bench_scenes::load(name, &Overrides::default()).expect("a known scene");
-        let rays = rays_of(&bench.camera);
+        let rays = View::new(bench.camera, WIDTH, HEIGHT).expect("a legal size").rays();
         group.throughput(Throughput::Elements(rays.len() as u64));
         for (structure, options) in STRUCTURES {
             let tree = Tree::build(&bench.scene, &options).expect("legal options");

@@ -5,7 +5,7 @@ use std::{env, error::Error};
 use fbvh::{Options, TraceOptions, Tracer, Tree};
 use glam::Vec3;
 use image::{Rgb, RgbImage};
-use metaball_core::{Camera, Kernel, Metaball, Ray, Scene};
+use metaball_core::{Camera, Kernel, Metaball, Scene, View};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
@@ -25,14 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
 
     let camera = Camera::look_at(Vec3::new(2.0, 1.5, 6.0), Vec3::ZERO, Vec3::Y, 45.0)?;
-    let rays: Vec<Ray> = (0..WIDTH * HEIGHT)
-        .map(|pixel| {
-            let (column, row) = (pixel % WIDTH, pixel / WIDTH);
-            let direction = camera.exact_direction(column, row, WIDTH, HEIGHT);
-            Ray::new(camera.eye(), direction.as_vec3())
-        })
-        .collect();
-    let hits = tracer.first_hits(&rays);
+    let hits = tracer.first_hits(&View::new(camera, WIDTH, HEIGHT)?.rays());
 
     let light = Vec3::new(0.4, 0.8, 0.45).normalize();
     let picture = RgbImage::from_fn(WIDTH, HEIGHT, |column, row| {

@@ -4,8 +4,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use fbvh::{Options, TraceOptions, Tracer, Tree};
-use metaball_core::{Hit, NO_LIMIT, Ray, Scene, View};
-use rayon::prelude::*;
+use metaball_core::{Hit, Ray, Scene, View};
 
 use crate::methods::{METHODS, Method, tree_options};
 
@@ -33,7 +32,7 @@ pub fn trace(method: &Method, scene: &Scene, view: &View) -> anyhow::Result<Trac
     let build = start.elapsed();
 
     let start = Instant::now();
-    let rays = rays(view);
+    let rays = view.rays();
     let tracer = Tracer::new(&tree, scene, TraceOptions::DEFAULT);
     let hits = tracer.picture_hits(&rays, view.width() as usize);
     Ok(Traced { rays, hits, build, frame: start.elapsed() })
@@ -49,22 +48,6 @@ fn options_of(method: &Method) -> anyhow::Result<Options> {
             able.join(", ")
         )
     })
-}
-
-/// The view's rays, row by row from the top left: exact directions, rounded once. They end where the
-/// view's solid scene does.
-pub fn rays(view: &View) -> Vec<Ray> {
-    let (camera, width, height) = (view.camera(), view.width(), view.height());
-    let opaque = view.opaque_distance();
-    let ray = |pixel: usize| {
-        let (column, row) = (pixel as u32 % width, pixel as u32 / width);
-        Ray {
-            origin: camera.eye(),
-            direction: camera.exact_direction(column, row, width, height).as_vec3(),
-            t_max: opaque.map_or(NO_LIMIT, |distances| distances[pixel].min(NO_LIMIT)),
-        }
-    };
-    (0..view.pixels()).into_par_iter().map(ray).collect()
 }
 
 #[cfg(test)]
@@ -99,8 +82,6 @@ mod tests {
         let bench = load("filling", &Overrides::default()).expect("known");
         let view = View::new(bench.camera, 2, 1).expect("a size");
         let view = view.with_opaque_distance(Arc::from([1e-3, f32::INFINITY])).expect("two pixels");
-        let rays = rays(&view);
-        assert_eq!([rays[0].t_max, rays[1].t_max], [1e-3, NO_LIMIT]);
         let traced = trace(method("fbvh"), &bench.scene, &view).expect("traced");
         assert_eq!([traced.hits[0].is_hit(), traced.hits[1].is_hit()], [false, true]);
     }

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::Aabb;
+use crate::{Aabb, NO_LIMIT, Ray};
 
 /// A pinhole camera in a right-handed world.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -158,14 +159,24 @@ impl Camera {
     }
 
     /// The unit direction through the middle of pixel (`column`, `row`), counted from the top left,
-    /// in f64 from the stored f32 camera. What renderers use is the f32 rounding of this that
-    /// [`View::rays`](crate::View) hands out; this is what it is tested against.
+    /// in f64 from the stored f32 camera. [`View::rays`] hands out its f32 rounding; the rays of shaders
+    /// are tested against it.
     pub fn exact_direction(&self, column: u32, row: u32, width: u32, height: u32) -> DVec3 {
+        (self.towards_column(column, width, height) + self.up_to_row(row, height)).normalize()
+    }
+
+    /// From the eye to the middle of a column, on the picture at unit distance.
+    fn towards_column(&self, column: u32, width: u32, height: u32) -> DVec3 {
         let (width, height) = (f64::from(width), f64::from(height));
         let half_height = f64::from(self.half_height);
         let x = (2.0 * (f64::from(column) + 0.5) / width - 1.0) * half_height * width / height;
-        let y = (1.0 - 2.0 * (f64::from(row) + 0.5) / height) * half_height;
-        (self.forward.as_dvec3() + x * self.right.as_dvec3() + y * self.up.as_dvec3()).normalize()
+        self.forward.as_dvec3() + x * self.right.as_dvec3()
+    }
+
+    /// From the middle of the picture at unit distance up to a row.
+    fn up_to_row(&self, row: u32, height: u32) -> DVec3 {
+        let y = 1.0 - 2.0 * (f64::from(row) + 0.5) / f64::from(height);
+        y * f64::from(self.half_height) * self.up.as_dvec3()
     }
 }
 
@@ -271,6 +282,24 @@ impl View {
     pub fn opaque_distance(&self) -> Option<&[f32]> {
         self.opaque_distance.as_deref()
     }
+
+    /// The view's rays, row by row from the top left: exact directions, rounded once. They end where
+    /// the solid scene does. Made on rayon's current pool.
+    pub fn rays(&self) -> Vec<Ray> {
+        let Self { camera, width, height, .. } = self;
+        // A picture has few columns and rows, and many pixels.
+        let columns: Vec<DVec3> =
+            (0..*width).map(|column| camera.towards_column(column, *width, *height)).collect();
+        let rows: Vec<DVec3> = (0..*height).map(|row| camera.up_to_row(row, *height)).collect();
+        let ray = |pixel: u32| {
+            let (column, row) = ((pixel % width) as usize, (pixel / width) as usize);
+            let direction = (columns[column] + rows[row]).normalize().as_vec3();
+            let opaque = self.opaque_distance().map(|distances| distances[pixel as usize]);
+            let t_max = opaque.map_or(NO_LIMIT, |distance| distance.min(NO_LIMIT));
+            Ray { origin: camera.eye, direction, t_max }
+        };
+        (0..width * height).into_par_iter().map(ray).collect()
+    }
 }
 
 #[cfg(test)]
@@ -302,6 +331,23 @@ mod tests {
         // A field of view of 90° puts the top edge at 45°.
         let top = camera().exact_direction(1, 0, 3, 3_000);
         assert_abs_diff_eq!(top.y / -top.z, 1.0, epsilon = 1e-3);
+    }
+
+    #[test]
+    fn rays_go_through_the_middles_of_pixels() {
+        let (width, height) = (37, 23);
+        let distances: Arc<[f32]> =
+            (0..width * height).map(|pixel| [2.5, f32::INFINITY][pixel as usize % 2]).collect();
+        let view = View::new(camera().turned(0.3, -0.2), width, height).expect("legal");
+        let view = view.with_opaque_distance(distances).expect("a distance a pixel");
+        let rays = view.rays();
+        assert_eq!(rays.len(), view.pixels());
+        for (pixel, ray) in (0..).zip(rays) {
+            let (column, row) = (pixel % width, pixel / width);
+            let direction = view.camera().exact_direction(column, row, width, height).as_vec3();
+            let t_max = [2.5, NO_LIMIT][pixel as usize % 2];
+            assert_eq!(ray, Ray { origin: view.camera().eye(), direction, t_max });
+        }
     }
 
     #[test]

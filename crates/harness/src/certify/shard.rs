@@ -11,7 +11,6 @@ use metaball_core::{Camera, Hit, Ray, Scene, Verdict, View};
 use super::aim::{self, Aim, Aimed, Anchor};
 use super::card::{Card, SIDE, Session};
 use super::tally::{Exam, Question, Tally, Tracer};
-use crate::cpu;
 use crate::stability::cell::Outcome;
 use crate::stability::limits::expected;
 
@@ -160,7 +159,7 @@ impl Picture {
     fn new(camera: Camera, most: usize, session: Option<&mut Session<'_>>) -> anyhow::Result<Self> {
         let (rays, hits) = match session {
             Some(session) => session.picture(camera)?,
-            None => (cpu::rays(&View::new(camera, SIDE, SIDE)?), Vec::new()),
+            None => (View::new(camera, SIDE, SIDE)?.rays(), Vec::new()),
         };
         let count = most.min(rays.len());
         let pixels = (0..count).map(|index| index * rays.len() / count);

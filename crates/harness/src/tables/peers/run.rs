@@ -13,7 +13,6 @@ use serde::{Deserialize, Serialize};
 
 use super::povray::{Job, Povray, Times};
 use crate::console::Progress;
-use crate::cpu::rays;
 use crate::measure::milliseconds;
 use crate::record::Samples;
 use crate::reference::Reference;
@@ -130,7 +129,7 @@ pub fn measure(
     progress.advance(1);
 
     progress.stage(format!("{}: oracle", bout.spec));
-    let (images, rays) = (images(&hits, &depths), rays(&view));
+    let (images, rays) = (images(&hits, &depths), view.rays());
     let reference = reference(&scene, &rays, bout.size, &images, &pool);
     progress.advance(1);
     let ours = ours.summary(&hits, score(&reference, &hits)?);
@@ -177,7 +176,7 @@ fn trace(scene: &Scene, view: &View, rounds: &mut Rounds) -> anyhow::Result<Vec<
 
     let (start, cpu) = (Instant::now(), processor_ms());
     let tracer = Tracer::new(&tree, scene, TraceOptions::DEFAULT);
-    let hits = tracer.picture_hits(&rays(view), view.width() as usize);
+    let hits = tracer.picture_hits(&view.rays(), view.width() as usize);
     rounds.trace.push(milliseconds(start.elapsed()));
     rounds.cpu.extend(processor_ms().zip(cpu).map(|(end, start)| end - start));
     Ok(hits)
