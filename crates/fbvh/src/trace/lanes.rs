@@ -2,8 +2,8 @@
 //! where `pulp` finds wider ones at run time, code under its `dispatch` uses those. No operation is
 //! fused, so results are the same on every machine.
 
+use std::iter;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Mul, Not, Sub};
-use std::{array, iter};
 
 /// How many numbers.
 pub(super) const WIDTH: usize = 8;
@@ -21,6 +21,17 @@ pub(super) fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
         rest &= rest.wrapping_sub(1);
         (lane < WIDTH).then_some(lane)
     })
+}
+
+/// As [`std::array::from_fn`], which may leave the function to be compiled by itself, without the vectors
+/// of where it is called.
+#[inline(always)]
+pub(super) fn array_of<T: Copy, const N: usize>(entry: impl Fn(usize) -> T) -> [T; N] {
+    let mut entries = [entry(0); N];
+    for (k, place) in entries.iter_mut().enumerate().skip(1) {
+        *place = entry(k);
+    }
+    entries
 }
 
 impl<T: Copy> Lanes<T> {
@@ -99,7 +110,7 @@ impl Mask {
     /// The lanes of the bits that are set.
     #[inline(always)]
     pub(super) fn from_bits(bits: u32) -> Self {
-        Self(array::from_fn(|lane| if bits & 1 << lane == 0 { 0 } else { u32::MAX }))
+        Self(array_of(|lane| if bits & 1 << lane == 0 { 0 } else { u32::MAX }))
     }
 
     /// Lane i in bit i.

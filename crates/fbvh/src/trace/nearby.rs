@@ -1,6 +1,6 @@
 //! A leaf's balls as a packet of rays sees them.
 
-use super::lanes::{Lanes, WIDTH, lanes_of};
+use super::lanes::{Lanes, WIDTH, array_of, lanes_of};
 use super::pack::{Part, UNIT};
 use super::packet::{Exact, Packet, length_squared};
 use crate::Field;
@@ -161,7 +161,7 @@ impl Nearby {
             let direction = packet.direction[axis].map(f64::from);
             *start = (*start - Lanes::splat(self.middle[axis])) + base * direction;
         }
-        let [x, y, z] = origin.map(|coordinate| coordinate.map(|x| x as f32));
+        let [x, y, z] = array_of(|axis| origin[axis].map(|x| x as f32));
         let distance = (x * x + y * y + z * z).sqrt();
         let middle = self.middle.iter().map(|x| x.abs()).sum::<f64>() as f32;
         let far = exact.distance + Lanes::splat(middle) + base.map(|base| base.abs() as f32);

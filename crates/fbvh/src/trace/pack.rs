@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use metaball_core::Ray;
 
-use super::lanes::{Lanes, WIDTH};
+use super::lanes::{Lanes, WIDTH, array_of};
 use crate::Field;
 
 /// Eight balls, seen from the middle of their leaf's box.
@@ -85,7 +85,7 @@ impl Pack {
             let inverse_square = inverse * inverse;
             self.blocks.push(Block {
                 exact,
-                center: exact.map(|coordinate| coordinate.map(|x| x as f32)),
+                center: array_of(|axis| exact[axis].map(|x| x as f32)),
                 inverse_square,
                 inverse_square_f32: inverse_square.map(|x| x as f32),
                 inverse_radius: inverse.map(|x| x as f32),

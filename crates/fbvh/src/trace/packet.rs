@@ -11,7 +11,7 @@ use pulp::{Simd, WithSimd};
 
 use super::Tracer;
 use super::certified::{Journey, Scratch};
-use super::lanes::{Lanes, WIDTH, lanes_of};
+use super::lanes::{Lanes, WIDTH, array_of, lanes_of};
 use super::polynomial::{Answer, Question};
 use super::ranges::UNIT;
 use super::slabs::WIDER;
@@ -47,11 +47,11 @@ impl Packet {
         let mut all = [rays[0]; WIDTH];
         all[..rays.len()].copy_from_slice(rays);
         let all = Lanes(all);
-        let direction = [0, 1, 2].map(|axis| all.map(|ray| ray.direction[axis]));
+        let direction: [_; 3] = array_of(|axis| all.map(|ray| ray.direction[axis]));
         Self {
-            origin: [0, 1, 2].map(|axis| all.map(|ray| ray.origin[axis])),
+            origin: array_of(|axis| all.map(|ray| ray.origin[axis])),
             direction,
-            inverse: direction.map(|along| along.map(f32::recip)),
+            inverse: array_of(|axis| direction[axis].map(f32::recip)),
             limit: all.map(|ray| ray.t_max),
             falls: falls(&rays[0]),
         }
@@ -59,11 +59,11 @@ impl Packet {
 
     #[inline(always)]
     fn exact(&self) -> Exact {
-        let direction = self.direction.map(|along| along.map(f64::from));
+        let direction: [_; 3] = array_of(|axis| self.direction[axis].map(f64::from));
         let [x, y, z] = direction;
         Exact {
-            origin: self.origin.map(|start| start.map(f64::from)),
-            inverse: direction.map(|along| along.map(f64::recip)),
+            origin: array_of(|axis| self.origin[axis].map(f64::from)),
+            inverse: array_of(|axis| direction[axis].map(f64::recip)),
             distance: length_squared(self.origin).sqrt(),
             length: length_squared(self.direction).sqrt(),
             square: x * x + y * y + z * z,
@@ -104,7 +104,7 @@ impl Packet {
 /// Per axis: whether the ray goes towards −∞.
 #[inline(always)]
 fn falls(ray: &Ray) -> [bool; 3] {
-    ray.direction.to_array().map(f32::is_sign_negative)
+    array_of(|axis| ray.direction[axis].is_sign_negative())
 }
 
 #[inline(always)]

@@ -9,13 +9,11 @@
 //! - An interval holds one crossing also where the field is below T at its start and above at its
 //!   end, and no ball that reaches it falls on it: the field rises there, whatever rims there are.
 
-use std::array;
-
 use metaball_core::Kernel;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::bernstein::{inverse_binomials, right_of, value_and_rise};
-use super::lanes::{Lanes, Mask, WIDTH, lanes_of};
+use super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
 use super::nearby::{Locals, Nearby};
 use super::pack::{Part, UNIT};
 use super::packet::{Exact, Packet};
@@ -140,7 +138,7 @@ impl AskingPacket<'_> {
         const MARGIN: f32 = 16.0 * UNIT;
         let packet = self.packet;
         let zero = Lanes::splat(0.0f32);
-        let origin = locals.origin.map(|coordinate| coordinate.map(|x| x as f32));
+        let origin: [_; 3] = array_of(|axis| locals.origin[axis].map(|x| x as f32));
         let square = self.exact.square.map(|square| square as f32);
         let inverse_square_length = square.map(f32::recip);
         let back = zero - locals.half;
@@ -154,8 +152,7 @@ impl AskingPacket<'_> {
         for candidate in 0..kept.len() {
             let at = kept[candidate];
             let ball = &balls[at as usize];
-            let [x, y, z] = ball.center.map(Lanes::splat);
-            let (x, y, z) = (x - origin[0], y - origin[1], z - origin[2]);
+            let [x, y, z] = array_of(|axis| Lanes::splat(ball.center[axis]) - origin[axis]);
             let along = x * dx + y * dy + z * dz;
             let distance = (x * x + y * y + z * z) * ball.inverse_square_f32;
             let reaches = (locals.reach * ball.inverse_radius).map(|reach| ball.away + reach);
@@ -265,14 +262,14 @@ impl AskingPacket<'_> {
         let threshold = self.question.threshold as f32;
         let rounding = (self.nearby.parts.len() + 4 * N + 48) as f32 * UNIT;
         let error = terms.error.map(|error| error * 1.0001 + 8.0 * UNIT * threshold);
-        let most: [_; N] = array::from_fn(|k| terms.most[k] * inverses[k] as f32);
-        let least: [_; N] = array::from_fn(|k| terms.least[k] * inverses[k] as f32);
+        let most: [_; N] = array_of(|k| terms.most[k] * inverses[k] as f32);
+        let least: [_; N] = array_of(|k| terms.least[k] * inverses[k] as f32);
         let up = |c: Lanes<f32>| (c * (1.0 + rounding) + error).map(|c| c - threshold);
         let down = |c: Lanes<f32>| (c * (1.0 - rounding) - error).map(|c| c - threshold);
         let differs = (0..N).fold(Mask::NONE, |differs, k| differs | !most[k].is_at_most(least[k]));
         Enclosure {
-            upper: most.map(up),
-            lower: least.map(down),
+            upper: array_of(|k| up(most[k])),
+            lower: array_of(|k| down(least[k])),
             ends: [down(most[0]), down(most[N - 1])],
             is_exact: !differs,
             is_known: error.is_less(Lanes::splat(threshold)),
@@ -322,7 +319,7 @@ impl AskingPacket<'_> {
     ) {
         const MOST_STEPS: usize = 6;
         let Crossings { start, end, .. } = *crossings;
-        let direction = self.packet.direction.map(|along| along.map(f64::from));
+        let direction: [_; 3] = array_of(|axis| self.packet.direction[axis].map(f64::from));
         let mut t = guess.map(f64::from);
         // What a step leaves is its square, and the normal, from before it, is off by it over the distance
         // from a centre. But for α = 1, whose slope jumps at a rim: then it may leave as much again.
@@ -347,7 +344,7 @@ impl AskingPacket<'_> {
                 let t = locals.base.0[lane] + here;
                 // Past the ray's end by a rounding: too close to call here.
                 if is_between && t <= self.stretch.1.0[lane] {
-                    let gradient = glam::DVec3::from(gradient.map(|along| along.0[lane]));
+                    let gradient = glam::DVec3::from(array_of(|axis| gradient[axis].0[lane]));
                     self.results[lane] = Answer::Root(t.max(self.stretch.0.0[lane]), gradient);
                 }
             }
@@ -373,8 +370,7 @@ impl AskingPacket<'_> {
         let mut gradient = [Lanes::splat(0.0f64); 3];
         for &at in &self.nearby.kept {
             let ball = &self.nearby.balls[at as usize];
-            let [x, y, z] = ball.exact.map(Lanes::splat);
-            let (x, y, z) = (x - point[0], y - point[1], z - point[2]);
+            let [x, y, z] = array_of(|axis| Lanes::splat(ball.exact[axis]) - point[axis]);
             let v = (x * x + y * y + z * z)
                 .map(|distance| (1.0 - distance * ball.inverse_square).max(0.0));
             let strength = f64::from(ball.strength);
@@ -437,7 +433,7 @@ fn negative_until<const N: usize>(upper: &[Lanes<f32>; N]) -> Lanes<f32> {
     // Lerps err by 3u of the largest coefficient, N − 1 of them in a restriction.
     let largest = upper.iter().fold(zero, |largest, c| largest.max(c.map(f32::abs)));
     let guard = largest * (8.0 * N as f32 * UNIT);
-    let mut coefficients = upper.map(|c| c + guard);
+    let mut coefficients: [_; N] = array_of(|k| upper[k] + guard);
     let mut start = zero;
     for clip in 0..CLIPS {
         let first = coefficients[0];

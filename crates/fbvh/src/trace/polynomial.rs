@@ -6,7 +6,7 @@ use metaball_core::{Kernel, Ray};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::bernstein::{inverse_binomials, negative_until, only_root, value_and_slope};
-use super::lanes::{Lanes, Mask};
+use super::lanes::{Lanes, Mask, array_of};
 use super::pack::{Local, Pack, Part, UNIT};
 use super::{Counter, Crossing};
 
@@ -163,7 +163,7 @@ impl Question {
                 continue;
             }
             let covers = part.margin.is_at_most(v[0].min(v[2]));
-            let terms = self.coefficients::<N>(v.map(|v| v.max(zero)), part.strength);
+            let terms = self.coefficients::<N>(array_of(|k| v[k].max(zero)), part.strength);
             for k in 0..N {
                 most[k] += terms[k];
                 least[k] += covers.select(terms[k], zero);
@@ -256,7 +256,7 @@ impl Question {
         let zero = Lanes::splat(0.0f64);
         let (mut sum, mut gradient) = (zero, [zero; 3]);
         for block in &pack.blocks {
-            let [x, y, z] = [0, 1, 2].map(|axis| block.exact[axis] - Lanes::splat(point[axis]));
+            let [x, y, z] = array_of(|axis| block.exact[axis] - Lanes::splat(point[axis]));
             let v = (x * x + y * y + z * z)
                 .zip(block.inverse_square, |distance, inverse| (1.0 - distance * inverse).max(0.0));
             let strength = block.strength.map(f64::from);
@@ -267,7 +267,7 @@ impl Question {
                 *sum += offset * pull;
             }
         }
-        let gradient = DVec3::from(gradient.map(Lanes::sum));
+        let gradient = DVec3::from(array_of(|axis| gradient[axis].sum()));
         (sum.sum() - self.threshold, gradient)
     }
 
@@ -369,20 +369,23 @@ impl<const N: usize> Sums<N> {
         if error.is_nan() || error >= question.threshold {
             return None;
         }
-        let most: [f64; N] = std::array::from_fn(|k| f64::from(most[k].sum()) * inverses[k]);
-        let least: [f64; N] = std::array::from_fn(|k| f64::from(least[k].sum()) * inverses[k]);
+        let most: [f64; N] = array_of(|k| f64::from(most[k].sum()) * inverses[k]);
+        let least: [f64; N] = array_of(|k| f64::from(least[k].sum()) * inverses[k]);
         let is_exact = most == least;
         let up = |c: f64| c * (1.0 + rounding) + error - question.threshold;
         let down = |c: f64| c * (1.0 - rounding) - error - question.threshold;
         let ends = [most[0], most[N - 1]];
         Some(match question.crossing {
-            Crossing::In => {
-                Self { upper: most.map(up), lower: least.map(down), ends: ends.map(down), is_exact }
-            }
+            Crossing::In => Self {
+                upper: array_of(|k| up(most[k])),
+                lower: array_of(|k| down(least[k])),
+                ends: array_of(|k| down(ends[k])),
+                is_exact,
+            },
             Crossing::Out => Self {
-                upper: least.map(|c| -down(c)),
-                lower: most.map(|c| -up(c)),
-                ends: ends.map(|c| -up(c)),
+                upper: array_of(|k| -down(least[k])),
+                lower: array_of(|k| -up(most[k])),
+                ends: array_of(|k| -up(ends[k])),
                 is_exact,
             },
         })
@@ -399,7 +402,7 @@ impl<const N: usize> Sums<N> {
 
     #[inline(always)]
     fn middle(&self) -> [f64; N] {
-        std::array::from_fn(|k| 0.5 * (self.upper[k] + self.lower[k]))
+        array_of(|k| 0.5 * (self.upper[k] + self.lower[k]))
     }
 }
 
