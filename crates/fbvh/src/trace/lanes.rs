@@ -114,9 +114,12 @@ impl Mask {
     }
 
     /// Lane i in bit i.
+    ///
+    /// Each lane adds 3·2ⁱ. Of 2ⁱ the compiler would make a flag of lane 0 and shift it, which takes all that
+    /// leads here apart into four lanes, two and single ones.
     #[inline(always)]
     pub(super) fn bits(self) -> u32 {
-        (0..WIDTH).fold(0, |bits, lane| bits | self.0[lane] & 1 << lane)
+        (0..WIDTH).fold(0, |bits, lane| bits + (self.0[lane] & 3 << lane)) / 3
     }
 
     /// Whether it holds in any lane.
@@ -214,5 +217,20 @@ impl<T: Copy + Mul<Output = T>> Mul<T> for Lanes<T> {
     #[inline(always)]
     fn mul(self, factor: T) -> Self {
         self.map(|a| a * factor)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masks_and_bits_say_the_same() {
+        for bits in 0..1 << WIDTH {
+            let mask = Mask::from_bits(bits);
+            assert_eq!((mask.bits(), mask.any()), (bits, bits != 0));
+            assert_eq!((!mask).bits(), !bits & 0xff);
+            assert_eq!(lanes_of(bits).fold(0, |found, lane| found | 1 << lane), bits);
+        }
     }
 }
