@@ -108,8 +108,8 @@ impl<'a, F: Field> Tracer<'a, F> {
     /// in packets, blocks of 4 × 2 pixels make closer neighbours than eight pixels of a row.
     pub fn picture_hits(&self, rays: &[Ray], width: usize) -> Vec<Hit> {
         const BLOCK: (usize, usize) = (4, 2);
-        /// Two rows of blocks, since a leaf is taken up once for neighbours.
-        const ROWS: usize = 2 * BLOCK.1;
+        /// Four rows of blocks, since a leaf is taken up once for neighbours.
+        const ROWS: usize = 4 * BLOCK.1;
         if self.tree.kind != Kind::Certified || width == 0 {
             return self.first_hits(rays);
         }

@@ -39,18 +39,31 @@ use crate::Field;
 pub(super) struct Scratch {
     pub(super) arch: Arch,
     pack: Pack,
-    pub(super) nearby: Nearby,
+    /// Leaves that packets have met, each in the place of its number: their neighbours meet them too.
+    /// No places where there were only single rays.
+    nearby: Vec<Nearby>,
     chords: Chords,
 }
+
+/// Places for leaves that packets have met. With 8 pictures take 1 % longer, with 128 as long.
+const NEARBY: usize = 32;
 
 impl Scratch {
     pub(super) fn new() -> Self {
         Self {
             arch: Arch::new(),
             pack: Pack::default(),
-            nearby: Nearby::default(),
+            nearby: Vec::new(),
             chords: Chords::default(),
         }
+    }
+
+    /// The place of a leaf that packets meet.
+    pub(super) fn nearby(&mut self, leaf: usize) -> &mut Nearby {
+        if self.nearby.is_empty() {
+            self.nearby.resize_with(NEARBY, Nearby::default);
+        }
+        &mut self.nearby[leaf % NEARBY]
     }
 }
 

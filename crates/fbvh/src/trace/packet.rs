@@ -255,10 +255,11 @@ impl<F: Field> Walk<'_, F> {
             self.each(lanes, |walk, lane| walk.ask_alone(leaf, lane));
             return;
         }
-        let Scratch { arch, nearby, .. } = &mut *self.scratch;
+        let arch = self.scratch.arch;
+        let nearby = self.scratch.nearby(leaf);
         nearby.take(self.tracer.field, leaf, &bounds, list);
         let rays = (packet, exact);
-        let answers = self.question.ask_packet(*arch, nearby, rays, stretch, lanes);
+        let answers = self.question.ask_packet(arch, nearby, rays, stretch, lanes);
         self.each(lanes, |walk, lane| match answers[lane] {
             Answer::Unclear => walk.ask_alone(leaf, lane),
             answer => walk.tracer.hit_of(answer, leaf, &walk.rays[lane]),
