@@ -7,18 +7,19 @@
 // are said of the excess.
 #define_import_path metaball::fbvh::leaf
 
-#import metaball::fbvh::excess::{bounds_on, SIGN, SOLID_ENDS}
+#import metaball::fbvh::excess::{bounds_on, stays_below, SIGN, SOLID_ENDS}
 #import metaball::fbvh::local::{at, local_frame, Frame, UNIT}
-#import metaball::fbvh::look::{look, BELOW, LOOKS, ONCE, UNCLEAR}
-#import metaball::fbvh::structure::{leaves, lists, Leaf}
-#import metaball::fbvh::suspend::{can_walk, spent}
+#import metaball::fbvh::look::{look, LOOKS}
+#import metaball::fbvh::nearby::{ball_of, begin_walk, gather, near_in, walk_length, words}
+#import metaball::fbvh::outlook::{BELOW, ONCE, UNCLEAR}
+#import metaball::fbvh::projection::{project, rim_share}
+#import metaball::fbvh::structure::{leaves, Leaf}
+#import metaball::fbvh::suspend::can_walk
 #import metaball::hit::{HIT, INSIDE, UNDECIDED}
 #import metaball::kernel::{greatest_bend, kernel, kernel_slope}
 #import metaball::ray::{any_will_do, Ray}
 #import metaball::scene::scene
-#import metaball::strength::strength
-#import metaball::support::support_of
-#import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test}
+#import metaball::work::{count_balls, count_iterations, count_leaf_test}
 
 // Leaves do not overlap: once one holds a hit, no later one holds a nearer.
 fn first_hit_ends() -> bool {
@@ -65,23 +66,19 @@ const SHORT: f32 = 0x1p-20f;
 
 // The excess at a local t, its slope, and what the slope's slope is nowhere more than: best values, no
 // bounds.
-fn excess_and_slopes(frame: Frame, direction: vec3<f32>, first: u32, end: u32, t: f32) -> vec3<f32> {
-    count_evaluations(end - first);
-    spent += end - first + 1u;
+fn excess_and_slopes(frame: Frame, direction: vec3<f32>, t: f32) -> vec3<f32> {
+    begin_walk();
     var sum = vec2(-scene.threshold, 0.0);
     var bend = 0.0;
-    for (var entry = first; entry < end; entry++) {
-        let ball = lists[entry];
-        let support = support_of(ball);
-        let offset = (support.center - frame.center) - frame.origin;
-        let middle = dot(offset, direction);
-        let off_axis = offset - middle * direction;
-        let along = t - middle;
-        let square = support.radius * support.radius;
-        let v = 1.0 - (dot(off_axis, off_axis) + along * along) / square;
-        let share = strength(ball) / square;
-        sum += vec2(strength(ball) * kernel(v), -2.0 * along * share * kernel_slope(v));
-        bend += share;
+    for (var word = 0u; word < words(); word++) {
+        for (var bits = near_in(word); bits != 0u; bits &= bits - 1u) {
+            let seen = project(frame, direction, ball_of(word, bits));
+            let along = t - seen.middle;
+            let v = 1.0 - rim_share(seen, along);
+            let share = seen.weight * seen.inverse_square;
+            sum += vec2(seen.weight * kernel(v), -2.0 * along * share * kernel_slope(v));
+            bend += share;
+        }
     }
     return vec3(SIGN * sum, bend * greatest_bend());
 }
@@ -108,15 +105,14 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     let end = leaves[index + 1u].first;
     let frame = local_frame(ray, inverse, leaf.min, leaf.max);
 
+    if !can_walk(end - first + 1u) {
+        return WAITING;
+    }
     if search.stage == ENTER {
         if frame.enter > frame.leave {
             return MISSED;
         }
-        if !can_walk(end - first + 1u) {
-            return WAITING;
-        }
         count_leaf_test();
-        count_balls(end - first);
         // A leaf without a list is solid. Its faces lie inside the surface: a ray that is in it for no
         // longer than rounding can make up is told by the leaves around.
         if first == end {
@@ -125,8 +121,15 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
             }
             return found_at(max(at(frame, frame.enter), 0.0), select(HIT, INSIDE, frame.starts));
         }
+    }
+    let most = gather(frame, ray.direction, first, end);
+    if search.stage == ENTER {
+        count_balls(end - first);
+        if stays_below(most) {
+            return MISSED;
+        }
         if frame.starts {
-            let start = bounds_on(frame, ray.direction, first, end, frame.enter, frame.enter);
+            let start = bounds_on(frame, ray.direction, frame.enter, frame.enter);
             if start.end_least >= 0.0 {
                 return found_at(0.0, INSIDE);
             }
@@ -138,10 +141,10 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     }
 
     while search.stage == NARROW && search.iterations < LOOKS {
-        if !can_walk(end - first + 1u) {
+        if !can_walk(walk_length()) {
             return WAITING;
         }
-        let seen = look(frame, ray.direction, first, end, search.low, search.high);
+        let seen = look(frame, ray.direction, search.low, search.high);
         let tells = seen.outcome != UNCLEAR || seen.low > search.low || seen.high < search.high;
         search.iterations = select(LOOKS, search.iterations + 1u, tells);
         if seen.outcome == BELOW && search.high >= frame.leave {
@@ -161,14 +164,14 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     }
 
     while search.stage == NARROW {
-        if !can_walk(end - first + 1u) {
+        if !can_walk(walk_length()) {
             return WAITING;
         }
         // The interval from `probe` on is looked at; before it the excess is below 0 up to `low`, and
         // rises from there.
         let probe = search.low_value;
         let width = search.high - probe;
-        let bounds = bounds_on(frame, ray.direction, first, end, probe, search.high);
+        let bounds = bounds_on(frame, ray.direction, probe, search.high);
         let rises = bounds.least_slope > 0.0;
         // What rises is greatest at its end.
         let is_below = bounds.most < 0.0 || (rises && bounds.end_most < 0.0);
@@ -209,8 +212,6 @@ fn is_bracketed() -> bool {
 // their hits in different leaves, do it at the same time.
 fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     let leaf = leaves[index];
-    let first = leaf.first;
-    let end = leaves[index + 1u].first;
     let frame = local_frame(ray, inverse, leaf.min, leaf.max);
     // One root between the ends, or too short a way between them to matter: Newton's steps, kept
     // between the ends (Press et al., rtsafe). Where the slope is f', a step leaves at most
@@ -218,11 +219,11 @@ fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     var t = search.high_value;
     let known = UNIT * max(abs(frame.enter), abs(frame.leave));
     for (var step = 0u; step < 48u; step++) {
-        if !can_walk(end - first + 1u) {
+        if !can_walk(walk_length()) {
             return WAITING;
         }
         count_iterations(1u);
-        let value = excess_and_slopes(frame, ray.direction, first, end, t);
+        let value = excess_and_slopes(frame, ray.direction, t);
         if value.x >= 0.0 {
             search.high = t;
         } else {

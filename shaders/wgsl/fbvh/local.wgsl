@@ -36,20 +36,6 @@ fn at(frame: Frame, t: f32) -> f32 {
 
 const UNIT: f32 = 0x1p-23f;
 
-// How far rounding can misplace the projection of a centre at this offset from o', and move the ray past
-// it: the offset itself, three products and their sum, a direction that is unit to rounding only.
-fn misplacement(frame: Frame, offset: vec3<f32>) -> f32 {
-    return 6.0 * UNIT * length(offset) + 1.05 * frame.misplaced;
-}
-
-// How far rounding can move v = 1 - s where s = r^2/R^2 is at most so much, from 0 to 1. A distance r
-// that is `misplaced` moves s by (2 r + misplaced) misplaced / R^2; its squares, their sum and the
-// quotient err by 9 units of s, the difference by one of v.
-fn depth_margin(s: f32, misplaced: f32, inverse_radius: f32) -> f32 {
-    let part = misplaced * inverse_radius;
-    return UNIT * (1.0 + 9.0 * s) + part * (2.0 * sqrt(s) + part);
-}
-
 fn upper_bits(x: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>(bitcast<vec3<u32>>(x) & vec3(0xfffff000u));
 }

@@ -8,46 +8,27 @@
 // balls that reach the interval cover it. Argued in crates/fbvh/src/trace/certified.rs.
 #define_import_path metaball::fbvh::look
 
-#import metaball::fbvh::local::{misplacement, Frame, UNIT}
-#import metaball::fbvh::structure::lists
-#import metaball::fbvh::suspend::spent
+#import metaball::fbvh::local::{Frame, UNIT}
+#import metaball::fbvh::nearby::{ball_of, begin_walk, near_in, summing, words}
+#import metaball::fbvh::outlook::{Outlook, BELOW, ONCE, UNCLEAR}
+#import metaball::fbvh::projection::{project, rim_share, Projection}
 #import metaball::scene::scene
-#import metaball::strength::strength
-#import metaball::support::support_of
-#import metaball::work::count_evaluations
 
 // So many looks at a leaf, before ranges are asked.
 const LOOKS: u32 = 3u;
-
-// What a look has come to.
-const UNCLEAR: u32 = 0u;
-// The field stays below T.
-const BELOW: u32 = 1u;
-// The field reaches T once, and is above it at the end.
-const ONCE: u32 = 2u;
-
-struct Look {
-    outcome: u32,
-    // Where to look next, if it is unclear: the field does not reach T before `low`.
-    low: f32,
-    high: f32,
-    // If once: where, nearly.
-    guess: f32,
-}
 
 // How far rounding can move the coefficients of v on an interval at whose ends s = r^2/R^2 is at most so
 // much. At the ends as depth_margin, but for values of any size. The blossom is 1 - p(a).p(b)/R^2, where p
 // points from the centre to the ray: it has the same bound, since |p(a)| |p(b)| / R^2 is at most s, too. What
 // holds for the coefficients holds for all values between them.
-fn coefficient_margin(s: f32, misplaced: f32, inverse_radius: f32) -> f32 {
-    let part = misplaced * inverse_radius;
+fn coefficient_margin(seen: Projection, s: f32) -> f32 {
+    let part = seen.misplaced * seen.inverse_radius;
     return UNIT * (1.0 + 10.0 * s) + part * (2.0 * sqrt(s) + part);
 }
 
 // One walk along the leaf's list. The field is below T at `low`, or that is unclear, too.
-fn look(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32, high: f32) -> Look {
-    count_evaluations(end - first);
-    spent += end - first + 1u;
+fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
+    begin_walk();
     // Coefficients of what is nowhere below the field and of what is nowhere above it; the last one apart,
     // where either is the field.
     var most = vec4(0.0);
@@ -58,58 +39,51 @@ fn look(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32, high
     // Whether all balls rise on the interval, and whether all cover it.
     var rises = true;
     var covered = true;
-    for (var entry = first; entry < end; entry++) {
-        let ball = lists[entry];
-        let support = support_of(ball);
-        let offset = (support.center - frame.center) - frame.origin;
-        let middle = dot(offset, direction);
-        let off_axis = offset - middle * direction;
-        let inverse_radius = 1.0 / support.radius;
-        let inverse_square = inverse_radius * inverse_radius;
-        let off_square = dot(off_axis, off_axis);
-        let to_start = low - middle;
-        let to_end = high - middle;
-        let along = vec3(to_start, to_start, to_end) * vec3(to_start, to_end, to_end);
-        let s = (off_square + along) * inverse_square;
-        let farthest = max(s.x, s.z);
-        let misplaced = misplacement(frame, offset);
-        let margin = coefficient_margin(farthest, misplaced, inverse_radius);
-        let near = clamp(middle, low, high) - middle;
-        if 1.0 - (off_square + near * near) * inverse_square + margin <= 0.0 {
-            continue;
+    for (var word = 0u; word < words(); word++) {
+        for (var bits = near_in(word); bits != 0u; bits &= bits - 1u) {
+            let seen = project(frame, direction, ball_of(word, bits));
+            let to_start = low - seen.middle;
+            let to_end = high - seen.middle;
+            let along = vec3(to_start, to_start, to_end) * vec3(to_start, to_end, to_end);
+            let s = (seen.off_square + along) * seen.inverse_square;
+            let farthest = max(s.x, s.z);
+            let margin = coefficient_margin(seen, farthest);
+            if 1.0 - rim_share(seen, clamp(seen.middle, low, high) - seen.middle) + margin <= 0.0 {
+                continue;
+            }
+            let v = max(1.0 - s, vec3(0.0));
+            let q = seen.weight;
+            let terms =
+                q * vec4(v.x * v.x, v.x * v.y, (2.0 * v.y * v.y + v.x * v.z) * (1.0 / 3.0), v.y * v.z);
+            most += terms;
+            last += q * v.z * v.z;
+            error += 2.0 * q * margin * (max(v.x, max(v.y, v.z)) + margin);
+            // Where both ends are in the support by so much, no coefficient has been raised.
+            if 1.0 - farthest >= 2.0 * margin {
+                least += terms;
+            } else {
+                covered = false;
+            }
+            rises = rises && to_end < -seen.misplaced;
         }
-        let v = max(1.0 - s, vec3(0.0));
-        let q = strength(ball);
-        let terms =
-            q * vec4(v.x * v.x, v.x * v.y, (2.0 * v.y * v.y + v.x * v.z) * (1.0 / 3.0), v.y * v.z);
-        most += terms;
-        last += q * v.z * v.z;
-        error += 2.0 * q * margin * (max(v.x, max(v.y, v.z)) + margin);
-        // Where both ends are in the support by so much, no coefficient has been raised.
-        if 1.0 - farthest >= 2.0 * margin {
-            least += terms;
-        } else {
-            covered = false;
-        }
-        rises = rises && to_end < -misplaced;
     }
-    // Sums of n terms of one sign, each of a few products, err by less than this part of them.
-    let summing = f32(end - first + 24u) * UNIT;
-    let most_error = error * (1.0 + summing);
-    let upper = most * (1.0 + summing) + (most_error - scene.threshold);
-    let upper_last = last * (1.0 + summing) + (most_error - scene.threshold);
-    let lower = least * (1.0 - summing) - (most_error + scene.threshold);
-    let lower_last = last * (1.0 - summing) - (most_error + scene.threshold);
+    // How far the sums may err, of themselves: their terms are products of products.
+    let doubt = summing() + 8.0 * UNIT;
+    let most_error = error * (1.0 + doubt);
+    let upper = most * (1.0 + doubt) + (most_error - scene.threshold);
+    let upper_last = last * (1.0 + doubt) + (most_error - scene.threshold);
+    let lower = least * (1.0 - doubt) - (most_error + scene.threshold);
+    let lower_last = last * (1.0 - doubt) - (most_error + scene.threshold);
 
     if all(upper < vec4(0.0)) && upper_last < 0.0 {
-        return Look(BELOW, low, high, high);
+        return Outlook(BELOW, low, high, high);
     }
     if upper.x >= 0.0 {
-        return Look(UNCLEAR, low, high, high);
+        return Outlook(UNCLEAR, low, high, high);
     }
     let width = high - low;
     if lower_last > 0.0 && (rises || (covered && changes_once(upper, lower))) {
-        return Look(ONCE, low, high, low + width * root_of(upper, upper_last));
+        return Outlook(ONCE, low, high, low + width * root_of(upper, upper_last));
     }
     // The quartic keeps below the steepest line from its first coefficient to another.
     let slopes = (vec4(upper.yzw, upper_last) - upper.x) * vec4(1.0, 0.5, 1.0 / 3.0, 0.25);
@@ -122,7 +96,7 @@ fn look(frame: Frame, direction: vec3<f32>, first: u32, end: u32, low: f32, high
         until = select(until, x, quartic(lower, lower_last, x) > 0.0);
     }
     // Short of the line by more than rounding.
-    return Look(UNCLEAR, low + 0.9375 * clear * width, min(low + until * width, high), high);
+    return Outlook(UNCLEAR, low + 0.9375 * clear * width, min(low + until * width, high), high);
 }
 
 // Whether coefficients, the first of them below 0 and the last above, change sign once, wherever between

@@ -239,8 +239,10 @@ fn solve(pixel: u32, ray: Ray) {
 struct Bounds {
     // Nowhere more than this.
     most: f32,
-    // The slope is nowhere less, 1/scene unit.
+    // The slope is nowhere less, 1/scene unit: what rising balls add to it, less what falling ones take.
     least_slope: f32,
+    gains: f32,
+    losses: f32,
     // At the end: certainly at least this.
     end_least: f32,
     // Least radius among the balls that reach the interval.
@@ -254,11 +256,11 @@ struct Bounds {
 // One walk along the balls that may reach the interval.
 //
 // A ball's share is greatest at the interval's nearest point to its projection and least at an end; the
-// slope 2 q kernel'(v) (middle - t) / R^2 is of one sign on either side of the projection. Rounding
+// slope 2 q kernel'(v) (middle - t) / R^2 is least at the interval's end. Rounding
 // moves v = 1 - r^2/R^2 by at most 26 units, and 12 units for each radius of the stretch (numerics,
 // section 9); what the view from beside lacks comes on top, twice.
 fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
-    var bounds = Bounds(0.0, 0.0, 0.0, 1e38, 0u, false);
+    var bounds = Bounds(0.0, 0.0, 0.0, 0.0, 0.0, 1e38, 0u, false);
     let end = window_end();
     var place = state.first;
     while place < end {
@@ -274,6 +276,7 @@ fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
     // The sum of n terms of one sign, each of a few products, errs by less than this part of it.
     let summing = f32(balls + 24u) * UNIT;
     bounds.most *= 1.0 + summing;
+    bounds.least_slope = bounds.gains * (1.0 - summing) - bounds.losses * (1.0 + summing);
     bounds.end_least *= 1.0 - summing;
     bounds.is_crowded = balls == MOST_WINDOW && end < list_end;
     return bounds;
@@ -325,15 +328,14 @@ fn bound_ball(
     let q = strength(ball);
     (*bounds).most += q * kernel(v_most);
     (*bounds).end_least += q * kernel(v_end - margin);
-    var slope = 0.0;
-    if middle >= high {
-        let gentlest = min(kernel_slope(v_start - margin), kernel_slope(v_end - margin));
-        slope = gentlest * max(middle - high, 0.0) * (1.0 - 16.0 * UNIT);
+    let v_least = min(v_start, v_end) - margin;
+    let steep = 2.0 * q * inverse_square;
+    let least_way = middle - high - margin * support.radius;
+    if least_way > 0.0 {
+        (*bounds).gains += steep * min(kernel_slope(v_least), kernel_slope(v_most)) * least_way;
     } else {
-        let v_least = min(v_start, v_end) - margin;
-        slope = -steepest_slope(v_least, v_most) * (high - middle) * (1.0 + 16.0 * UNIT);
+        (*bounds).losses -= steep * steepest_slope(v_least, v_most) * least_way;
     }
-    (*bounds).least_slope += 2.0 * q * inverse_square * slope;
     (*bounds).radius = min((*bounds).radius, support.radius);
     return place + 1u;
 }

@@ -6,10 +6,10 @@ use super::pipelines::Layouts;
 use super::waiting::WaitingRoom;
 use crate::Tree;
 
-/// The longest list of a leaf: as long as the budget of `fbvh/suspend.wgsl`, so that one walk along it fits
-/// into a dispatch, and none of the eight invocations that software Vulkan runs side by side brings them
-/// near the 65,535 iterations, in all, after which it ends them.
-const LONGEST_LIST: u32 = 6_800;
+/// The longest list of a leaf: about as long as the budget of `fbvh/suspend.wgsl`, so that one walk along it
+/// fits into a dispatch, and none of the eight invocations that software Vulkan runs side by side brings
+/// them near the 65,535 iterations, in all, after which it ends them.
+const LONGEST_LIST: u32 = 6_600;
 
 /// The three arrays of a tree, bound together with the room for waiting rays.
 pub(super) struct DeviceTree {

@@ -18,13 +18,15 @@
 //! v = 1 − |p − x|²/R² is formed from p − o′, its projection and its distance from the ray; o′ is
 //! where the ray enters the leaf. All are right to a few u·|p − o′|, u = 2⁻⁵³, and p − o′ to
 //! 4u·|p − o| from the ray's origin o. So v is to [`Chord::margin`] =
-//! 32u(1 + |p − o′|/R)(1 + |p − o′|/R + |p − o|/R), which is added to v for upper bounds and taken off
-//! for lower ones. Each term of the sums is then right to 16u of itself and the sum of n of them to
-//! n·u more. The shader does the same in f32 from an origin beside the leaf (`fbvh/local.wgsl`), with
-//! u = 2⁻²³ and what is left of it where r is less than R: projection and distance are misplaced by
-//! e = 6u·|p − o′| and what o′ itself is, so r² is by 2re + e²; squares, sums and division add 9u of
-//! r²/R², the last difference u. So balls that are seen near their centres, and short intervals, have
-//! the digits that they deserve.
+//! 32u(1 + |p − o′|/R)(1 + |p − o′|/R + |p − o|/R), which is added to v for upper bounds and taken
+//! off for lower ones. Each term of the sums is then right to 16u of itself and the sum of n of them
+//! to n·u more; terms of slopes, which have both signs, are lessened by as much each. A projection is
+//! misplaced by no more than the margin of v times R. The shader does the same in f32 from an origin
+//! beside the leaf (`fbvh/local.wgsl`, `fbvh/projection.wgsl`), with u = 2⁻²³ and what is left of it
+//! where r is less than R: projection and distance are misplaced by e = 6u·|p − o′| and what o′
+//! itself is, so r² is by 2re + e²; squares, sums and division add 9u of r²/R², the last difference
+//! u. So balls that are seen near their centres, and short intervals, have the digits that they
+//! deserve.
 
 use glam::DVec3;
 use metaball_core::{Kernel, Ray};
@@ -199,6 +201,7 @@ impl Search<'_> {
         let (mut end_most, mut end_least) = (0.0, 0.0);
         let (mut most_slope, mut least_slope) = (0.0, 0.0);
         let mut smallest = f64::INFINITY;
+        let summing = (chords.chords.len() + 24) as f64 * UNIT;
         for chord in &chords.chords {
             let v_most = chords.v(chord, chord.middle.clamp(low, high)) + chord.margin;
             if v_most <= 0.0 {
@@ -211,22 +214,14 @@ impl Search<'_> {
             least += q * value_at(v_least);
             end_most += q * value_at(v_end + chord.margin);
             end_least += q * value_at(v_end - chord.margin);
-            // Slopes are steep towards the projection, and 2·q·k′/R² times the way to it.
-            let gentle = || slope_at(v_least).min(slope_at(v_most));
-            let steepest = self.steepest(v_least, v_most);
-            let (gain, loss) = if chord.middle >= high {
-                (steepest * (chord.middle - low), -gentle() * (chord.middle - high))
-            } else if chord.middle <= low {
-                (-gentle() * (low - chord.middle), steepest * (high - chord.middle))
-            } else {
-                (steepest * (chord.middle - low), steepest * (high - chord.middle))
-            };
+            // The slope is 2·q·k′/R² times the way to the projection, which rounding may misplace.
             let factor = 2.0 * q * chord.inverse_square;
-            most_slope += factor * gain;
-            least_slope -= factor * loss;
+            let slopes = (slope_at(v_least).min(slope_at(v_most)), self.steepest(v_least, v_most));
+            let misplaced = chord.margin * chord.radius;
+            least_slope += factor * least_product(slopes, chord.middle - high, misplaced, summing);
+            most_slope -= factor * least_product(slopes, low - chord.middle, misplaced, summing);
             smallest = smallest.min(chord.radius);
         }
-        let summing = (chords.chords.len() + 24) as f64 * UNIT;
         let up = |sum: f64| sum * (1.0 + summing) - self.threshold;
         let down = |sum: f64| sum * (1.0 - summing) - self.threshold;
         match self.crossing {
@@ -283,5 +278,16 @@ impl Search<'_> {
             }
             t = next;
         }
+    }
+}
+
+/// The least that a kernel's derivative, between these two, may come to times a way that may be misplaced,
+/// when a sum errs by such a part of its terms. What a ball falls within the misplaced part of its way is
+/// the square of that, and within the margin of v.
+fn least_product((gentlest, steepest): (f64, f64), way: f64, misplaced: f64, summing: f64) -> f64 {
+    if way >= 0.0 {
+        gentlest * (1.0 - summing) * (way - misplaced).max(0.0)
+    } else {
+        steepest * (1.0 + summing) * (way - misplaced)
     }
 }

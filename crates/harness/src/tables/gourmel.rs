@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use self::compare::{Density, Row, Table, WorkRow};
 pub use self::heading::Heading;
-use self::plan::{Quantity, Series};
+use self::plan::{Quantity, Series, measurements, series};
 use self::run::{Run, Shoot};
 use self::settings::Setting;
 use crate::console;
@@ -95,7 +95,7 @@ pub fn tables(order: &Order) -> anyhow::Result<()> {
 
 fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> Measurements {
     let mut heading = Heading::new(SCHEMA, gpu, extent, shoot);
-    let scenes = extent.measurements().into_iter();
+    let scenes = measurements(extent).into_iter();
     let scenes = scenes.map(|(spec, settings)| (spec, settings.into_iter().collect()));
     let runs = heading.measure(scenes, shoot.steps(), |spec, settings, progress| {
         run::measure(gpu, spec, settings, shoot, progress)
@@ -128,7 +128,7 @@ fn lines(extent: Extent, runs: &[Run]) -> Vec<Line> {
             points: series.points.iter().filter_map(point).collect(),
         }
     };
-    extent.series().into_iter().map(line).collect()
+    series(extent).into_iter().map(line).collect()
 }
 
 /// A table for the terminal.

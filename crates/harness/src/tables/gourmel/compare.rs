@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::paper::{COUNTED, Counts, PRINTED, Printed, Rate};
-use super::plan::{Place, scaled_molecule};
+use super::plan::{Place, scaled_molecule, support_factors};
 use super::run::Run;
 use super::settings::Setting;
 use crate::numbers::decimal;
@@ -104,7 +104,7 @@ pub fn tables(extent: Extent, runs: &[Run]) -> Vec<Table> {
 }
 
 fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
-    let scene = extent.spec(rate.place);
+    let scene = rate.place.spec(extent);
     let first = table.rows.iter().find(|other| other.place == rate.place);
     let first = first.filter(|first| first.setting != rate.setting);
     let paper_ratio = first.map(|first| rate.fps / first.fps);
@@ -128,7 +128,7 @@ fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
 
 /// Table 3, with what was counted.
 pub fn work_table(extent: Extent, runs: &[Run]) -> Vec<WorkRow> {
-    let scene = extent.spec(Place::Tornado4k);
+    let scene = Place::Tornado4k.spec(extent);
     let counted = |row: &Counts| {
         let work = find(runs, scene, &row.setting.name())?.work;
         Some([work.nodes_per_ray, work.leaf_tests_per_ray, work.balls_per_ray])
@@ -161,7 +161,7 @@ pub fn density(extent: Extent, runs: &[Run]) -> Density {
             scene,
         }
     };
-    let rows: Vec<_> = extent.support_factors().iter().map(row).collect();
+    let rows: Vec<_> = support_factors(extent).iter().map(row).collect();
     let rate = |setting| {
         let rows = || PRINTED.iter().flat_map(|table| table.rows);
         let row = rows().find(|row| row.place == Place::Molecule && row.setting == setting);

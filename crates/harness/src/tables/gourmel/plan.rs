@@ -23,6 +23,25 @@ pub enum Place {
     Pool,
 }
 
+impl Place {
+    /// What to load for it.
+    pub fn spec(self, extent: Extent) -> &'static str {
+        match (extent, self) {
+            (Extent::Whole, Self::Scattered30k) => "scattered-30k",
+            (Extent::Whole, Self::Scattered100k) => "scattered-100k",
+            (Extent::Whole, Self::Tornado4k) => "tornado-4k",
+            (Extent::Whole, Self::Tornado128k) => "tornado-128k",
+            (Extent::Whole, Self::Pool) => "pool-10k",
+            (_, Self::Molecule) => "molecule",
+            (Extent::Quick, Self::Scattered30k) => "scattered:300",
+            (Extent::Quick, Self::Scattered100k) => "scattered:1000",
+            (Extent::Quick, Self::Tornado4k) => "tornado:150",
+            (Extent::Quick, Self::Tornado128k) => "tornado:300",
+            (Extent::Quick, Self::Pool) => "pool:200",
+        }
+    }
+}
+
 /// A line in a plot: frame time over a quantity.
 #[derive(Debug, Clone)]
 pub struct Series {
@@ -61,89 +80,70 @@ pub fn subject(name: &str) -> (&str, f32) {
     scaled.and_then(|(spec, factor)| Some((spec, factor.parse().ok()?))).unwrap_or((name, 1.0))
 }
 
-impl Extent {
-    /// What to load for a scene of the paper.
-    pub fn spec(self, place: Place) -> &'static str {
-        match (self, place) {
-            (Self::Whole, Place::Scattered30k) => "scattered-30k",
-            (Self::Whole, Place::Scattered100k) => "scattered-100k",
-            (Self::Whole, Place::Tornado4k) => "tornado-4k",
-            (Self::Whole, Place::Tornado128k) => "tornado-128k",
-            (Self::Whole, Place::Pool) => "pool-10k",
-            (_, Place::Molecule) => "molecule",
-            (Self::Quick, Place::Scattered30k) => "scattered:300",
-            (Self::Quick, Place::Scattered100k) => "scattered:1000",
-            (Self::Quick, Place::Tornado4k) => "tornado:150",
-            (Self::Quick, Place::Tornado128k) => "tornado:300",
-            (Self::Quick, Place::Pool) => "pool:200",
+/// The plots of Forcier and Wang's implementation (2017), which has a tornado too: time over the
+/// number of balls, over the depth of the tree, and over split balls.
+pub fn series(extent: Extent) -> Vec<Series> {
+    let (counts, levels, dense, densities): (&[u32], &[usize], u32, &[u32]) = match extent {
+        Extent::Whole => {
+            (&[1000, 2000, 4000, 8000, 16_000], &[8, 9, 10, 12, 16], 2000, &[5, 10, 20, 40])
         }
-    }
+        Extent::Quick => (&[100, 200], &[2, 4], 100, &[5, 10]),
+    };
+    let over_balls = |title, setting| Series {
+        title,
+        axis: "balls",
+        quantity: Quantity::Balls,
+        points: counts.iter().map(|count| (format!("tornado:{count}"), setting)).collect(),
+    };
+    let tornado = Place::Tornado4k.spec(extent);
+    vec![
+        over_balls("Number of balls, modified BVH", Setting::Modified),
+        over_balls("Number of balls, Fitted BVH", Setting::Fitted),
+        Series {
+            title: "Depth of the tree",
+            axis: "levels",
+            quantity: Quantity::Depth,
+            points: levels
+                .iter()
+                .map(|&most| (tornado.to_owned(), Setting::Levels(most)))
+                .collect(),
+        },
+        Series {
+            title: "Split balls, by the scene's density",
+            axis: "split balls a leaf",
+            quantity: Quantity::Split,
+            points: densities
+                .iter()
+                .map(|density| (format!("tornado:{dense}:{density}"), Setting::Fitted))
+                .collect(),
+        },
+    ]
+}
 
-    /// The plots of Forcier and Wang's implementation (2017), which has a tornado too: time over the
-    /// number of balls, over the depth of the tree, and over split balls.
-    pub fn series(self) -> Vec<Series> {
-        let (counts, levels, dense, densities): (&[u32], &[usize], u32, &[u32]) = match self {
-            Self::Whole => {
-                (&[1000, 2000, 4000, 8000, 16_000], &[8, 9, 10, 12, 16], 2000, &[5, 10, 20, 40])
-            }
-            Self::Quick => (&[100, 200], &[2, 4], 100, &[5, 10]),
-        };
-        let over_balls = |title, setting| Series {
-            title,
-            axis: "balls",
-            quantity: Quantity::Balls,
-            points: counts.iter().map(|count| (format!("tornado:{count}"), setting)).collect(),
-        };
-        let tornado = self.spec(Place::Tornado4k);
-        vec![
-            over_balls("Number of balls, modified BVH", Setting::Modified),
-            over_balls("Number of balls, Fitted BVH", Setting::Fitted),
-            Series {
-                title: "Depth of the tree",
-                axis: "levels",
-                quantity: Quantity::Depth,
-                points: levels
-                    .iter()
-                    .map(|&most| (tornado.to_owned(), Setting::Levels(most)))
-                    .collect(),
-            },
-            Series {
-                title: "Split balls, by the scene's density",
-                axis: "split balls a leaf",
-                quantity: Quantity::Split,
-                points: densities
-                    .iter()
-                    .map(|density| (format!("tornado:{dense}:{density}"), Setting::Fitted))
-                    .collect(),
-            },
-        ]
+/// Factors on the supports of the molecule's balls that make it sparser and denser, rising.
+pub fn support_factors(extent: Extent) -> &'static [f32] {
+    match extent {
+        Extent::Whole => &[0.6, 0.8, 1.0, 1.25, 1.6],
+        Extent::Quick => &[0.8, 1.0],
     }
+}
 
-    /// Factors on the supports of the molecule's balls that make it sparser and denser, rising.
-    pub fn support_factors(self) -> &'static [f32] {
-        match self {
-            Self::Whole => &[0.6, 0.8, 1.0, 1.25, 1.6],
-            Self::Quick => &[0.8, 1.0],
-        }
+/// Everything that the tables and plots need, each once: settings by scene.
+pub fn measurements(extent: Extent) -> BTreeMap<String, BTreeSet<Setting>> {
+    let rates = PRINTED.iter().flat_map(|table| table.rows);
+    let rates = rates.map(|row| (row.place.spec(extent).to_owned(), row.setting));
+    let counted = COUNTED.iter().map(|row| row.setting);
+    let counted = counted.map(|setting| (Place::Tornado4k.spec(extent).to_owned(), setting));
+    let points = series(extent).into_iter().flat_map(|series| series.points);
+    let mut measurements = BTreeMap::<_, BTreeSet<_>>::new();
+    let sizes = support_factors(extent).iter().map(|&factor| scaled_molecule(factor));
+    let scaled = sizes.flat_map(|spec| {
+        [Setting::Modified, Setting::Fitted].map(|setting| (spec.clone(), setting))
+    });
+    for (spec, setting) in rates.chain(counted).chain(points).chain(scaled) {
+        measurements.entry(spec).or_default().insert(setting);
     }
-
-    /// Everything that the tables and plots need, each once: settings by scene.
-    pub fn measurements(self) -> BTreeMap<String, BTreeSet<Setting>> {
-        let rates = PRINTED.iter().flat_map(|table| table.rows);
-        let rates = rates.map(|row| (self.spec(row.place).to_owned(), row.setting));
-        let counted = COUNTED.iter().map(|row| row.setting);
-        let counted = counted.map(|setting| (self.spec(Place::Tornado4k).to_owned(), setting));
-        let points = self.series().into_iter().flat_map(|series| series.points);
-        let mut measurements = BTreeMap::<_, BTreeSet<_>>::new();
-        let sizes = self.support_factors().iter().map(|&factor| scaled_molecule(factor));
-        let scaled = sizes.flat_map(|spec| {
-            [Setting::Modified, Setting::Fitted].map(|setting| (spec.clone(), setting))
-        });
-        for (spec, setting) in rates.chain(counted).chain(points).chain(scaled) {
-            measurements.entry(spec).or_default().insert(setting);
-        }
-        measurements
-    }
+    measurements
 }
 
 #[cfg(test)]

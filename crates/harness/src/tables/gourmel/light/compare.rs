@@ -63,7 +63,7 @@ pub fn measurements(extent: Extent) -> Vec<(&'static str, Vec<Wanted>)> {
     });
     let mut measurements: Vec<(&str, Vec<Wanted>)> = Vec::new();
     for (place, wanted) in costs.chain(gains) {
-        let spec = extent.spec(place);
+        let spec = place.spec(extent);
         match measurements.iter_mut().find(|(scene, _)| *scene == spec) {
             Some((_, all)) if all.contains(&wanted) => {}
             Some((_, all)) => all.push(wanted),
@@ -76,7 +76,7 @@ pub fn measurements(extent: Extent) -> Vec<(&'static str, Vec<Wanted>)> {
 /// Table 2.
 pub fn costs(extent: Extent, runs: &[Run]) -> Vec<CostRow> {
     let rows = |printed: &Costs| {
-        let scene = extent.spec(printed.place);
+        let scene = printed.place.spec(extent);
         let row = |(&effect, fps): (&Effect, &f64)| {
             let pair = |method| {
                 let run = |effect: Effect| find(runs, scene, method, &effect.name());
@@ -104,7 +104,7 @@ pub fn costs(extent: Extent, runs: &[Run]) -> Vec<CostRow> {
 /// Table 1.
 pub fn gains(extent: Extent, runs: &[Run]) -> Vec<GainRow> {
     let row = |printed: &Gain| {
-        let (scene, effect) = (extent.spec(printed.place), printed.effect.name());
+        let (scene, effect) = (printed.place.spec(extent), printed.effect.name());
         let modified = find(runs, scene, METHODS[0], &effect);
         let gain = |method| {
             modified.and_then(|slow| slow.times_as_long_as(find(runs, scene, method, &effect)?))

@@ -1,0 +1,86 @@
+// The list of the leaf that is searched, and which of its balls reach the ray's stretch in the leaf: a bit
+// each, so that of all walks along the list only the first sees those that do not. A walk goes through the
+// words, and in each through its bits. Of a list longer than the words all balls count as near.
+#define_import_path metaball::fbvh::nearby
+
+#import metaball::fbvh::local::{Frame, UNIT}
+#import metaball::fbvh::projection::{greatest_depth, project}
+#import metaball::fbvh::structure::lists
+#import metaball::fbvh::suspend::spent
+#import metaball::kernel::kernel
+#import metaball::work::count_evaluations
+
+const WORDS: u32 = 8u;
+
+// The list's first entry, and one past its last.
+var<private> first: u32;
+var<private> end: u32;
+// How many balls are near, and which.
+var<private> count: u32;
+var<private> near: array<u32, WORDS>;
+
+// Takes up a list and, where it fits into the words, walks along it. Returns what the field is nowhere on
+// the stretch more than.
+fn gather(frame: Frame, direction: vec3<f32>, list_first: u32, list_end: u32) -> f32 {
+    first = list_first;
+    end = list_end;
+    count = end - first;
+    if !fits() {
+        return 1e38;
+    }
+    count_evaluations(count);
+    spent += count + 1u;
+    count = 0u;
+    var most = 0.0;
+    var bits = 0u;
+    for (var entry = first; entry < end; entry++) {
+        let place = entry - first;
+        let seen = project(frame, direction, lists[entry]);
+        let v = greatest_depth(seen, frame.enter, frame.leave);
+        let is_near = u32(v > 0.0);
+        bits = select(bits, 0u, place % 32u == 0u) | (is_near << (place % 32u));
+        near[place / 32u] = bits;
+        count += is_near;
+        most += seen.weight * kernel(v);
+    }
+    return most * (1.0 + summing());
+}
+
+// A sum over the balls that are near, each term of a few products, errs by less than this part of what
+// the terms come to without their signs.
+fn summing() -> f32 {
+    return f32(count + 16u) * UNIT;
+}
+
+// Iterations of a walk along what is near.
+fn walk_length() -> u32 {
+    return count + words() + 1u;
+}
+
+// Counts a walk.
+fn begin_walk() {
+    count_evaluations(count);
+    spent += walk_length();
+}
+
+fn words() -> u32 {
+    return (end - first + 31u) / 32u;
+}
+
+// A bit for each ball near of those of a word, the first in the lowest.
+fn near_in(word: u32) -> u32 {
+    if fits() {
+        return near[word];
+    }
+    return 0xffffffffu >> (32u - min(end - first - 32u * word, 32u));
+}
+
+// Whether there is a bit for each ball of the list.
+fn fits() -> bool {
+    return end - first <= 32u * WORDS;
+}
+
+// The ball of the lowest bit of a word.
+fn ball_of(word: u32, bits: u32) -> u32 {
+    return lists[first + 32u * word + firstTrailingBit(bits)];
+}
