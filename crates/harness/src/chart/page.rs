@@ -1,6 +1,6 @@
 //! `chart.html`: the charts for a person to read. One file that needs no other, and no network.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use super::frontier::frontier;
@@ -78,7 +78,11 @@ fn error_section(group: &Group) -> String {
         + &error_plot(group, "wrong rays in a million", wrong_per_million);
     section(
         &group.spec,
-        &format!("<p>{about}</p>\n{}{plots}{}", remark_paragraphs(&group.remarks), missing(group)),
+        &format!(
+            "<p>{about}</p>\n{}{plots}{}",
+            remark_paragraphs(&group.remarks),
+            missing(&[group])
+        ),
     )
 }
 
@@ -162,18 +166,19 @@ fn mark(record: &Record, measured: &Measured, error: Quantity) -> Mark {
     Mark { x: frame.median, y: error(measured), kind, text }
 }
 
-/// What has no point, and why.
-fn missing(group: &Group) -> String {
-    let mut by_reason = BTreeMap::<String, Vec<String>>::new();
-    for record in &group.records {
+/// What has no point in some of the groups, and why.
+fn missing(groups: &[&Group]) -> String {
+    let mut by_reason = BTreeMap::<String, BTreeSet<String>>::new();
+    for record in groups.iter().flat_map(|group| &group.records) {
         if record.measured.is_none() {
             let reason = record.reason.as_deref().unwrap_or("no result");
             let reason = format!("{}: {reason}", record.status);
-            by_reason.entry(reason).or_default().push(label(&record.method, &record.options));
+            by_reason.entry(reason).or_default().insert(label(&record.method, &record.options));
         }
     }
-    let line = |(reason, settings): (&String, &Vec<String>)| {
-        format!("<li>✕ {} – {}</li>\n", escape(&settings.join("; ")), escape(reason))
+    let line = |(reason, settings): (&String, &BTreeSet<String>)| {
+        let settings = settings.iter().map(String::as_str).collect::<Vec<_>>().join("; ");
+        format!("<li>✕ {} – {}</li>\n", escape(&settings), escape(reason))
     };
     let lines: String = by_reason.iter().map(line).collect();
     if lines.is_empty() { lines } else { format!("<ul>\n{lines}</ul>\n") }
@@ -201,8 +206,7 @@ fn growth_sections(chart: &Chart) -> String {
             .iter()
             .map(|&(name, quantity)| row_plot(&groups, "balls", balls, name, quantity))
             .collect();
-        let missing: String = groups.iter().map(|group| missing(group)).collect();
-        let body = exponents(&groups, &quantities) + &plots + &missing;
+        let body = exponents(&groups, &quantities) + &plots + &missing(&groups);
         section(&format!("More balls: {family}"), &body)
     };
     families.iter().map(section_of).collect()
@@ -245,7 +249,7 @@ fn density_section(chart: &Chart) -> String {
         .iter()
         .map(|&(name, quantity)| row_plot(&groups, "overlapping balls", density, name, quantity))
         .collect();
-    let missing: String = groups.iter().map(|group| missing(group)).collect();
+    let missing = missing(&groups);
     let about = "<p>One place and count of balls; radii grow, and the threshold keeps the share of \
                  pixels that hit.</p>\n";
     section("Denser balls", &format!("{about}{}{plots}{missing}", spreads(&groups)))
