@@ -214,10 +214,16 @@ fn cells(
         if_first(Some(cpu / frame)),
         if_first(paper_gain),
         gpu.facts.get("culled").map_or_else(String::new, |culled| decimal(100.0 * culled)),
-        format!("{} ({})", decimal(gpu.layers.1), gpu.layers.0),
-        format!("{} ({})", decimal(gpu.iterations.0), gpu.iterations.1),
+        mean_and_most(gpu.layers.1, gpu.layers.0),
+        mean_and_most(gpu.iterations.0, gpu.iterations.1),
         gpu.rel_rms_t.map_or_else(|| "–".to_owned(), small),
     ]
+}
+
+/// A counter of rays: the mean, and the most in brackets. A method that does without has none: the search
+/// of tiles' lists peels no layers and clips nothing.
+fn mean_and_most(mean: f64, most: u32) -> String {
+    if most == 0 { "–".to_owned() } else { format!("{} ({most})", decimal(mean)) }
 }
 
 #[cfg(test)]
@@ -262,6 +268,12 @@ mod tests {
             assert!(!page.contains(forbidden), "{forbidden}");
         }
         assert!(page.contains("Figure 8") && page.ends_with("</html>\n"));
+    }
+
+    #[test]
+    fn what_a_method_does_without_is_a_dash() {
+        assert_eq!(mean_and_most(2.5, 7), "2.50 (7)");
+        assert_eq!(mean_and_most(1.25, 0), "–");
     }
 
     /// What does not fit says so, in its row and on the page.
