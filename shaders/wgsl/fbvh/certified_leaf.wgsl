@@ -26,6 +26,11 @@ fn first_hit_ends() -> bool {
     return true;
 }
 
+// Whether rays look for the way out of the solid.
+fn seeks_way_out() -> bool {
+    return !SOLID_ENDS;
+}
+
 // What a search has come to.
 const MISSED: u32 = 0u;
 const FOUND: u32 = 1u;

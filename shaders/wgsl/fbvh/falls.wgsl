@@ -6,8 +6,8 @@
 #import metaball::fbvh::bounds::Bounds
 #import metaball::fbvh::local::Frame
 #import metaball::fbvh::nearby::{ball_of, begin_walk, near_in, summing, words}
-#import metaball::fbvh::projection::{depths_on, project}
-#import metaball::kernel::{kernel, kernel_slope, steepest_slope}
+#import metaball::fbvh::projection::{depths_on, least_product, project}
+#import metaball::kernel::{kernel, kernel_slope}
 #import metaball::scene::scene
 
 // The excess is this times F - T.
@@ -27,7 +27,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
     // How far the sums may err, of their terms.
     let doubt = summing();
     var least = 0.0;
-    var most_slope = 0.0;
+    var least_slope = 0.0;
     var end_most = 0.0;
     var end_least = 0.0;
     var start = vec2(0.0);
@@ -44,16 +44,11 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
             least += q * kernel(v.least);
             end_most += q * kernel(v.end + v.end_margin);
             end_least += q * kernel(v.end - v.end_margin);
-            // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: greatest at the interval's start, and
-            // bounded there by the product of what bounds its factors, as in rises.wgsl.
+            // The excess' derivative by t is 2 q kernel'(v) (t - middle)/R^2: least at the interval's start.
             let to_start = low - seen.middle;
             let to_end = high - seen.middle;
-            let gentlest = min(kernel_slope(v.least), kernel_slope(v.most)) * (1.0 - doubt);
-            let steepest = steepest_slope(v.least, v.most) * (1.0 + doubt);
-            let loss = gentlest * max(to_start - seen.misplaced, 0.0);
-            let gain = steepest * (seen.misplaced - to_start);
             let steep = 2.0 * q * seen.inverse_square;
-            most_slope += steep * select(gain, -loss, to_start >= 0.0);
+            least_slope += steep * least_product(seen, v, to_start, doubt);
             start += vec2(q * kernel(v.start), -steep * to_start * kernel_slope(v.start));
             stop += vec2(q * kernel(v.end), -steep * to_end * kernel_slope(v.end));
             radius = min(radius, seen.radius);
@@ -61,7 +56,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
     }
     let threshold = scene.threshold;
     return Bounds(
-        threshold - least * (1.0 - doubt), -most_slope,
+        threshold - least * (1.0 - doubt), least_slope,
         threshold - end_most * (1.0 + doubt), threshold - end_least * (1.0 - doubt),
         vec2(threshold, 0.0) - start, vec2(threshold, 0.0) - stop, radius,
     );

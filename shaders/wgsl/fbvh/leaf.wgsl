@@ -28,6 +28,11 @@ fn first_hit_ends() -> bool {
     return fitted;
 }
 
+// The paper's test starts outside.
+fn seeks_way_out() -> bool {
+    return false;
+}
+
 // The status of a hit just found: at the ray's origin the field was T or more to begin with.
 fn status_found() -> u32 {
     return select(INSIDE, HIT, search.high > 0.0);

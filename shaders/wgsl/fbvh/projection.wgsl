@@ -3,6 +3,7 @@
 #define_import_path metaball::fbvh::projection
 
 #import metaball::fbvh::local::{Frame, UNIT}
+#import metaball::kernel::{kernel_slope, steepest_slope}
 #import metaball::strength::strength
 #import metaball::support::support_of
 
@@ -72,4 +73,14 @@ fn greatest_depth(seen: Projection, low: f32, high: f32) -> f32 {
 fn depth_margin(seen: Projection, s: f32) -> f32 {
     let part = seen.misplaced * seen.inverse_radius;
     return UNIT * (1.0 + 9.0 * s) + part * (2.0 * sqrt(s) + part);
+}
+
+// On an interval with these depths the kernel's derivative times `way`, which may be misplaced, is nowhere
+// less than this when a sum errs by such a part of its terms: each factor is bounded. What a ball falls
+// within the misplaced part of its way is the square of that, and within the margin of v. Twin:
+// least_product of crates/fbvh/src/trace/ranges.rs.
+fn least_product(seen: Projection, v: Depths, way: f32, doubt: f32) -> f32 {
+    let gentlest = min(kernel_slope(v.least), kernel_slope(v.most)) * (1.0 - doubt);
+    let steepest = steepest_slope(v.least, v.most) * (1.0 + doubt);
+    return select(steepest * (way - seen.misplaced), gentlest * max(way - seen.misplaced, 0.0), way >= 0.0);
 }

@@ -5,8 +5,8 @@
 #import metaball::fbvh::bounds::Bounds
 #import metaball::fbvh::local::Frame
 #import metaball::fbvh::nearby::{ball_of, begin_walk, near_in, summing, words}
-#import metaball::fbvh::projection::{depths_on, project}
-#import metaball::kernel::{kernel, kernel_slope, steepest_slope}
+#import metaball::fbvh::projection::{depths_on, least_product, project}
+#import metaball::kernel::{kernel, kernel_slope}
 #import metaball::scene::scene
 
 // The excess is this times F - T.
@@ -43,17 +43,11 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
             most += q * kernel(v.most);
             end_least += q * kernel(v.end - v.end_margin);
             end_most += q * kernel(v.end + v.end_margin);
-            // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: least at the interval's end, and bounded
-            // there by the product of what bounds its factors. Where the projection lies no further before
-            // the end than rounding reaches, what the ball may fall is within the margin of v.
+            // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: least at the interval's end.
             let to_start = low - seen.middle;
             let to_end = high - seen.middle;
-            let gentlest = min(kernel_slope(v.least), kernel_slope(v.most)) * (1.0 - doubt);
-            let steepest = steepest_slope(v.least, v.most) * (1.0 + doubt);
-            let gain = gentlest * max(-to_end - seen.misplaced, 0.0);
-            let loss = steepest * (to_end + seen.misplaced);
             let steep = 2.0 * q * seen.inverse_square;
-            least_slope += steep * select(-loss, gain, to_end <= 0.0);
+            least_slope += steep * least_product(seen, v, -to_end, doubt);
             start += vec2(q * kernel(v.start), -steep * to_start * kernel_slope(v.start));
             stop += vec2(q * kernel(v.end), -steep * to_end * kernel_slope(v.end));
             radius = min(radius, seen.radius);

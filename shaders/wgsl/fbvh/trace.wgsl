@@ -145,6 +145,40 @@ fn follow(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
     return structure::EMPTY;
 }
 
+// Whether a point is in the box of a leaf, faces included. Where it is in none, the field is below T.
+fn is_in_leaf(point: vec3<f32>) -> bool {
+    var place = root;
+    while place != structure::EMPTY {
+        suspend::spent++;
+        if (place & structure::LEAF) != 0u {
+            let box = structure::leaves[place & ~structure::LEAF];
+            if is_between(point, box.min, box.max) {
+                depth = 0u;
+                return true;
+            }
+            place = structure::EMPTY;
+        } else {
+            let node = structure::nodes[place];
+            let is_left = is_between(point, node.left_min, node.left_max);
+            let is_right = is_between(point, node.right_min, node.right_max);
+            if is_left && is_right {
+                stack[depth] = node.right;
+                depth++;
+            }
+            place = select(select(structure::EMPTY, node.right, is_right), node.left, is_left);
+        }
+        if place == structure::EMPTY && depth > 0u {
+            depth--;
+            place = stack[depth];
+        }
+    }
+    return false;
+}
+
+fn is_between(point: vec3<f32>, low: vec3<f32>, high: vec3<f32>) -> bool {
+    return all(low <= point) && all(point <= high);
+}
+
 // Writes the hit, with its normal and colour from the list of the leaf that found it.
 fn write(pixel: u32, ray: Ray) {
     if best_status == hit::MISS {
@@ -195,9 +229,13 @@ fn write(pixel: u32, ray: Ray) {
 // crates/fbvh/src/gpu/mod.rs.
 fn clearance(ray: Ray, doubt: f32, steepness: f32, smallest: f32) -> f32 {
     let flattest = max(steepness, doubt / (smallest * 0x1p-10f));
-    let end = ray.origin + best_t * ray.direction;
-    let rounding = 0x1p-23f * (length(ray.origin) + 2.0 * best_t + length(end));
-    return 4.0 * doubt / max(flattest, 1e-37) + 4.0 * rounding;
+    return 4.0 * doubt / max(flattest, 1e-37) + rounding_at(ray, best_t);
+}
+
+// Four times what rounding may do to the point of a ray at t.
+fn rounding_at(ray: Ray, t: f32) -> f32 {
+    let end = ray.origin + t * ray.direction;
+    return 4.0 * 0x1p-23f * (length(ray.origin) + 2.0 * t + length(end));
 }
 
 // Where an invocation stands in its workgroup: eight in turn are a block of 4 by 2 pixels, which runs
@@ -222,6 +260,12 @@ fn trace(
     }
     let ray = ray_of(pixel);
     let inverse = structure::inverse(ray.direction);
+    // What starts in no leaf starts outside: it has found the way out.
+    if leaf::seeks_way_out() && !is_in_leaf(ray.origin) {
+        write_work(pixel);
+        hit::write_hit_with_clearance(pixel, 0.0, ray.direction, hit::INSIDE, rounding_at(ray, 0.0));
+        return;
+    }
     best_t = ray.t_max;
     best_status = hit::MISS;
 

@@ -176,7 +176,8 @@ impl Tally {
         let heading = Heading { tracer: exam.tracer, question: exam.question, aim: aimed.aim };
         let (truth, hit) = in_terms_of_first_hits(exam.question, &aimed.ray, truth, found);
         let mut judgement = Judgement::new(&truth, &hit);
-        if exam.question == Question::Exit && judgement.is_wrong() {
+        let is_unsure = judgement.is_wrong() || judgement.finding == Finding::Undecided;
+        if exam.question == Question::Exit && is_unsure {
             judgement.ambiguous = exit_is_ambiguous(exam, &aimed.ray, truth.t);
         }
         let is_wrong = judgement.is_wrong() && !is_as_near_as_floats(&truth, &hit);
