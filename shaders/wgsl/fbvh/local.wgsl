@@ -11,7 +11,7 @@
 #import metaball::ray::Ray
 
 struct Frame {
-    // c, world space.
+    // c, world space: the leaf's, or the start of a ray that starts in it.
     center: vec3<f32>,
     // o' - c.
     origin: vec3<f32>,
@@ -47,7 +47,9 @@ fn local_frame(ray: Ray, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>) ->
     let way = max(abs(middle - ray.origin), 0x1p-20f * abs(middle));
     let reach = max(max(way.x, way.y), max(way.z, 1e-30));
     let grid = bitcast<f32>(bitcast<u32>(reach) & 0x7f800000u) * 0x1p-21f;
-    let center = floor(middle / grid) * grid;
+    // A ray that starts in the leaf is seen from its start, which is no rounding away.
+    let starts_within = all(low <= ray.origin) && all(ray.origin <= high);
+    let center = select(floor(middle / grid) * grid, ray.origin, starts_within);
     let start_high = floor(ray.origin / grid) * grid;
     let start_low = ray.origin - start_high;
 

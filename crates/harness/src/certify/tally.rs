@@ -176,9 +176,11 @@ impl Tally {
         let heading = Heading { tracer: exam.tracer, question: exam.question, aim: aimed.aim };
         let (truth, hit) = in_terms_of_first_hits(exam.question, &aimed.ray, truth, found);
         let mut judgement = Judgement::new(&truth, &hit);
-        let is_unsure = judgement.is_wrong() || judgement.finding == Finding::Undecided;
-        if exam.question == Question::Exit && is_unsure {
-            judgement.ambiguous = exit_is_ambiguous(exam, &aimed.ray, truth.t);
+        let is_undecided = judgement.finding == Finding::Undecided;
+        if exam.question == Question::Exit && (judgement.is_wrong() || is_undecided) {
+            // A start too close to T to tell excuses doubt, and no answer about the way out.
+            let is_doubt_due = is_undecided && judgement.ambiguous;
+            judgement.ambiguous = is_doubt_due || exit_is_ambiguous(exam, &aimed.ray, truth.t);
         }
         let is_wrong = judgement.is_wrong() && !is_as_near_as_floats(&truth, &hit);
 
@@ -188,7 +190,7 @@ impl Tally {
         let is_hit = truth.verdict != Verdict::Miss;
         *(if is_hit { &mut count.hits } else { &mut count.misses }) += 1;
         count.ambiguous += u64::from(judgement.ambiguous);
-        if judgement.finding == Finding::Undecided {
+        if is_undecided {
             count.undecided += 1;
             count.undecided_clear += u64::from(!judgement.ambiguous);
         }
