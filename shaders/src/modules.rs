@@ -57,6 +57,8 @@ pub const MODULES: &[Module] = &[
     import!("opaque/none"),
     import!("opaque/image"),
     import!("ray/record"),
+    import!("ray/listed"),
+    entry!("ray/list"),
     import!("ray/primary"),
     import!("ray/free"),
     import!("core/hit"),

@@ -8,7 +8,7 @@
 //! # Theory
 //! *One path a pixel.* A sample of the picture follows one path of light backwards from the eye. All
 //! pixels take a step together: a batch of one ray a pixel is answered, a pass takes up the answers
-//! and makes the next batch. So a method's shader never holds an effect, and an effect's never a tree.
+//! and makes the next batch, both along a list of those that ask anything. So a method's shader never holds an effect, and an effect's never a tree.
 //! A surface point sends *feelers*, which ask for any hit: one for each light that casts shadows, and
 //! one for each occlusion ray. What a feeler would bring arrives if it meets nothing.
 //!

@@ -63,7 +63,7 @@ struct Path {
     doubts: u32,
 }
 
-/// A view of a scene with its light, and the film that it is exposed on. 208 bytes a pixel.
+/// A view of a scene with its light, and the film that it is exposed on. 216 bytes a pixel.
 #[derive(Debug)]
 pub struct Studio<'a> {
     gpu: &'a Gpu,
@@ -127,10 +127,14 @@ impl<'a> Studio<'a> {
             (0, Binding::Uniform, targets.view()),
             (1, Binding::Write, paths.rays()),
             (2, Binding::Write, paths.hits()),
+            (6, Binding::Read, paths.list()),
         ];
         in_view.extend(paths.colors().map(|colors| (4, Binding::Write, colors)));
-        let of_feelers =
-            vec![(0, Binding::Write, feelers.rays()), (1, Binding::Write, feelers.hits())];
+        let of_feelers = vec![
+            (0, Binding::Write, feelers.rays()),
+            (1, Binding::Write, feelers.hits()),
+            (2, Binding::Read, feelers.list()),
+        ];
         let mut of_light = vec![
             (0, Binding::Uniform, &uniform),
             (1, Binding::Read, &lights),
@@ -280,7 +284,8 @@ impl<'a> Studio<'a> {
         if let (Some(found), Some(colors)) = (targets.colors(), paths.colors()) {
             frame.encoder().copy_buffer_to_buffer(found, 0, colors, 0, colors.size());
         }
-        frame.compute("light surface", |pass| self.record(pass, &self.passes.surface));
+        self.paths.encode_list(frame, Question::FirstHit, "light start")?;
+        self.meet_surface(frame);
         Ok(())
     }
 
@@ -296,18 +301,28 @@ impl<'a> Studio<'a> {
         frame.compute("light start", |pass| self.record(pass, &self.passes.start));
         for _ in 0..=self.effects.bounces {
             tracer.encode_answers(frame, &self.paths, Question::FirstHit)?;
+            self.meet_surface(frame);
             if needed.contains(&Question::Exit) {
                 tracer.encode_answers(frame, &self.paths, Question::Exit)?;
+                self.meet_surface(frame);
             }
-            frame.compute("light surface", |pass| self.record(pass, &self.passes.surface));
             if needed.contains(&Question::AnyHit) {
                 for _ in 0..own {
                     tracer.encode_answers(frame, &self.feelers, Question::AnyHit)?;
-                    frame.compute("light feel", |pass| self.record(pass, &self.passes.feel));
+                    frame.compute("light feel", |pass| {
+                        self.record_along(pass, &self.passes.feel, &self.feelers);
+                    });
                 }
             }
         }
         Ok(())
+    }
+
+    /// Takes up the answers to the paths' own rays.
+    fn meet_surface(&self, frame: &mut Frame<'_>) {
+        frame.compute("light surface", |pass| {
+            self.record_along(pass, &self.passes.surface, &self.paths);
+        });
     }
 
     fn refusal(&self, method: &'static str) -> RenderError {
@@ -318,13 +333,29 @@ impl<'a> Studio<'a> {
         RenderError::Unsupported { method, reason }
     }
 
+    /// Over the picture.
     fn record(&self, pass: &mut wgpu::ComputePass<'_>, pipeline: &wgpu::ComputePipeline) {
         let (across, down) = self.targets.workgroups();
+        self.bind(pass, pipeline);
+        pass.dispatch_workgroups(across, down, 1);
+    }
+
+    /// Along the rays that have just been answered.
+    fn record_along(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        pipeline: &wgpu::ComputePipeline,
+        answered: &RayBatch,
+    ) {
+        self.bind(pass, pipeline);
+        pass.dispatch_workgroups_indirect(answered.list(), 0);
+    }
+
+    fn bind(&self, pass: &mut wgpu::ComputePass<'_>, pipeline: &wgpu::ComputePipeline) {
         pass.set_pipeline(pipeline);
         for (index, group) in self.groups.iter().enumerate() {
             pass.set_bind_group(index as u32, group, &[]);
         }
-        pass.dispatch_workgroups(across, down, 1);
     }
 }
 

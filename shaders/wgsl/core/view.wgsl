@@ -40,3 +40,10 @@ fn in_picture(position: vec2<u32>) -> bool {
 fn pixel_at(position: vec2<u32>) -> u32 {
     return position.y * view.width + position.x;
 }
+
+// Where an invocation stands in a workgroup of 8 by 8: eight in turn are a block of 4 by 2 pixels, which
+// runs apart less than a row of eight.
+fn in_blocks(index: u32) -> vec2<u32> {
+    let block = index / 8u;
+    return vec2(4u * (block % 2u) + index % 4u, 2u * (block / 2u) + index / 4u % 2u);
+}

@@ -133,15 +133,6 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         if stays_below(most) {
             return MISSED;
         }
-        if frame.starts {
-            let start = bounds_on(frame, ray.direction, frame.enter, frame.enter);
-            if start.end_least >= 0.0 {
-                return found_at(0.0, INSIDE);
-            }
-            if start.most >= 0.0 {
-                return found_at(0.0, UNDECIDED);
-            }
-        }
         search = Search(NARROW, 0u, frame.enter, frame.enter, frame.leave, 0.0, 0u);
     }
 
@@ -165,6 +156,21 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
             search.low = select(seen.low, search.high, seen.outcome == BELOW);
             search.low_value = search.low;
             search.high = select(seen.high, frame.leave, seen.outcome == BELOW);
+        }
+    }
+
+    // A look that tells anything has found the excess below 0 where it begins. Without, the ray's start may be
+    // beyond the root.
+    if search.stage == NARROW && frame.starts && search.low == frame.enter {
+        if !can_walk(walk_length()) {
+            return WAITING;
+        }
+        let start = bounds_on(frame, ray.direction, frame.enter, frame.enter);
+        if start.end_least >= 0.0 {
+            return found_at(0.0, INSIDE);
+        }
+        if start.most >= 0.0 {
+            return found_at(0.0, UNDECIDED);
         }
     }
 

@@ -1,6 +1,7 @@
 // The list of the leaf that is searched, and which of its balls reach the ray's stretch in the leaf: a bit
 // each, so that of all walks along the list only the first sees those that do not. A walk goes through the
-// words, and in each through its bits. Of a list longer than the words all balls count as near.
+// words, and in each through its bits. Of a list longer than the words all balls count as near, and of one so
+// short that a first walk saves nothing.
 #define_import_path metaball::fbvh::nearby
 
 #import metaball::fbvh::local::{Frame, UNIT}
@@ -12,6 +13,8 @@
 
 const WORDS: u32 = 8u;
 
+const SHORTEST: u32 = 5u;
+
 // The list's first entry, and one past its last.
 var<private> first: u32;
 var<private> end: u32;
@@ -19,13 +22,13 @@ var<private> end: u32;
 var<private> count: u32;
 var<private> near: array<u32, WORDS>;
 
-// Takes up a list and, where it fits into the words, walks along it. Returns what the field is nowhere on
+// Takes up a list and, where it is noted, walks along it. Returns what the field is nowhere on
 // the stretch more than.
 fn gather(frame: Frame, direction: vec3<f32>, list_first: u32, list_end: u32) -> f32 {
     first = list_first;
     end = list_end;
     count = end - first;
-    if !fits() {
+    if !is_noted() {
         return 1e38;
     }
     count_evaluations(count);
@@ -69,15 +72,16 @@ fn words() -> u32 {
 
 // A bit for each ball near of those of a word, the first in the lowest.
 fn near_in(word: u32) -> u32 {
-    if fits() {
+    if is_noted() {
         return near[word];
     }
     return 0xffffffffu >> (32u - min(end - first - 32u * word, 32u));
 }
 
 // Whether there is a bit for each ball of the list.
-fn fits() -> bool {
-    return end - first <= 32u * WORDS;
+fn is_noted() -> bool {
+    let length = end - first;
+    return SHORTEST <= length && length <= 32u * WORDS;
 }
 
 // The ball of the lowest bit of a word.

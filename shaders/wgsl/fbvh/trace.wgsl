@@ -9,10 +9,9 @@
 #import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
 #import metaball::hit
 #import metaball::kernel::kernel_slope
-#import metaball::ray::{any_will_do, goes_on, has_ray, ray_of, Ray}
+#import metaball::ray::{any_will_do, goes_on, pixel_of, ray_of, Ray, NOBODY}
 #import metaball::strength::strength
 #import metaball::support::support_of
-#import metaball::view::{in_picture, pixel_at}
 #import metaball::work::{come_back_to, count_node, go_down, leave_for_later, write_work}
 
 // The tree's root: a node, a leaf, or EMPTY.
@@ -238,24 +237,13 @@ fn rounding_at(ray: Ray, t: f32) -> f32 {
     return 4.0 * 0x1p-23f * (length(ray.origin) + 2.0 * t + length(end));
 }
 
-// Where an invocation stands in its workgroup: eight in turn are a block of 4 by 2 pixels, which runs
-// apart less than a row of eight.
-fn in_blocks(index: u32) -> vec2<u32> {
-    let block = index / 8u;
-    return vec2(4u * (block % 2u) + index % 4u, 2u * (block / 2u) + index / 4u % 2u);
-}
-
 @compute @workgroup_size(8, 8)
 fn trace(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) index: u32,
 ) {
-    let at = 8u * group.xy + in_blocks(index);
-    if !in_picture(at) {
-        return;
-    }
-    let pixel = pixel_at(at);
-    if !has_ray(pixel) {
+    let pixel = pixel_of(group, index);
+    if pixel == NOBODY {
         return;
     }
     let ray = ray_of(pixel);

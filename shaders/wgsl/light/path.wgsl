@@ -4,6 +4,7 @@
 
 #import metaball::free_ray::FreeRay
 #import metaball::hit::Hit
+#import metaball::listed::Listed
 
 // Twin of `Settings` in metaball-light.
 struct Settings {
@@ -88,9 +89,12 @@ const FEELING: u32 = 3u;
 
 // The path's own rays.
 @group(0) @binding(1) var<storage, read_write> path_rays: array<FreeRay>;
+// Those that have just been answered.
+@group(0) @binding(6) var<storage, read> answered: Listed;
 // Rays that feel for lights and sky.
 @group(1) @binding(0) var<storage, read_write> feelers: array<FreeRay>;
 @group(1) @binding(1) var<storage, read_write> feeler_hits: array<Hit>;
+@group(1) @binding(2) var<storage, read> answered_feelers: Listed;
 @group(2) @binding(0) var<uniform> settings: Settings;
 @group(2) @binding(1) var<storage, read> lights: array<LightSource>;
 @group(2) @binding(2) var<storage, read_write> paths: array<Path>;

@@ -1,7 +1,7 @@
 // What a surface does with light: Phong's model lit through feelers, a mirror, or a clear fluid.
 #define_import_path metaball::effects::scatter
 
-#import metaball::free_ray::{FreeRay, ANSWERED, ANY_HIT, EXIT, FIRST_HIT, no_ray}
+#import metaball::free_ray::{FreeRay, ANSWERED, ANY_HIT, EXIT, FIRST_HIT}
 #import metaball::effects::environment::ambient
 #import metaball::effects::floor::beyond
 #import metaball::effects::path::{feelers, lights, path_rays, settings, Path, FEELING, GONE, OUTSIDE, WITHIN}
@@ -49,16 +49,19 @@ fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
         return;
     }
     let shadow_rays = settings.lights * settings.shadows;
-    let number = (*path).feelers;
-    if number < shadow_rays + settings.occlusion_rays {
-        (*path).stage = FEELING;
+    while (*path).feelers < shadow_rays + settings.occlusion_rays {
+        let number = (*path).feelers;
         (*path).feelers = number + 1u;
+        var is_sent: bool;
         if number < shadow_rays {
-            feel_for_light(path, pixel, direction, number);
+            is_sent = feel_for_light(path, pixel, direction, number);
         } else {
-            feel_for_sky(path, pixel, direction, number - shadow_rays);
+            is_sent = feel_for_sky(path, pixel, direction, number - shadow_rays);
         }
-        return;
+        if is_sent {
+            (*path).stage = FEELING;
+            return;
+        }
     }
     feelers[pixel].question |= ANSWERED;
     let mirror = mirror_share(*path, direction);
@@ -118,35 +121,41 @@ fn shaded(light: vec3<f32>) -> vec3<f32> {
     return light * (floor(brightness * bands + 0.5) / (bands * brightness));
 }
 
-fn feel_for_light(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, light: u32) {
+fn feel_for_light(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, light: u32) -> bool {
     let lamp = lights[light];
     let number = settings.exposure * settings.lights + light;
     let disc = lamp.size * on_disc(point_in_square(pixel, purpose(*path, FOR_LIGHT), number));
     let height = sqrt(max(1.0 - dot(disc, disc), 0.0));
     let toward = around(lamp.toward, vec3(disc, height));
     let light_found = own_share(*path, direction) * reflected(*path, direction, light, toward);
-    send_feeler(path, pixel, toward, NO_LIMIT, light_found);
+    return send_feeler(path, pixel, toward, NO_LIMIT, light_found);
 }
 
 // Sky seen by one of the surface's occlusion rays, thrown by Lambert's cosine.
-fn feel_for_sky(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, ray: u32) {
+fn feel_for_sky(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, ray: u32) -> bool {
     let number = settings.exposure * settings.occlusion_rays + ray;
     let disc = on_disc(point_in_square(pixel, purpose(*path, FOR_SKY), number));
     let height = sqrt(max(1.0 - dot(disc, disc), 0.0));
     let toward = around((*path).normal, vec3(disc, height));
     let light_found = own_share(*path, direction) * (*path).base * beyond((*path).place, toward)
         / f32(settings.occlusion_rays);
-    send_feeler(path, pixel, toward, settings.occlusion_reach, light_found);
+    return send_feeler(path, pixel, toward, settings.occlusion_reach, light_found);
 }
 
-fn send_feeler(path: ptr<function, Path>, pixel: u32, toward: vec3<f32>, reach: f32, light: vec3<f32>) {
-    (*path).pending = light;
-    // Below the horizon there is nothing to ask.
+// Whether there is anything to ask: not below the horizon.
+fn send_feeler(
+    path: ptr<function, Path>,
+    pixel: u32,
+    toward: vec3<f32>,
+    reach: f32,
+    light: vec3<f32>,
+) -> bool {
     if dot(toward, (*path).normal) <= 0.0 {
-        feelers[pixel] = no_ray();
-    } else {
-        feelers[pixel] = FreeRay(start(*path, 1.0), reach, toward, ANY_HIT);
+        return false;
     }
+    (*path).pending = light;
+    feelers[pixel] = FreeRay(start(*path, 1.0), reach, toward, ANY_HIT);
+    return true;
 }
 
 // A clear fluid reflects or refracts, by Fresnel's equations: one of the two at random, as often as it

@@ -6,20 +6,22 @@
 #import metaball::hit::{clearance_of, hits, unfold, HIT, INSIDE, MISS}
 #import metaball::effects::environment::environment
 #import metaball::effects::floor::{floor_along, floor_base, floor_clearance, horizon, presence, UP}
-#import metaball::effects::path::{path_rays, paths, settings, Path, GONE, OUTSIDE, WITHIN}
+#import metaball::effects::path::{answered, path_rays, paths, settings, Path, GONE, OUTSIDE, WITHIN}
 #import metaball::effects::scatter::{go_on, light_directly}
-#import metaball::view::{in_picture, pixel_at, NO_LIMIT}
+#import metaball::listed::place_of
+#import metaball::view::NO_LIMIT
 
-@compute @workgroup_size(8, 8)
-fn meet_surface(@builtin(global_invocation_id) id: vec3<u32>) {
-    if !in_picture(id.xy) {
+@compute @workgroup_size(64)
+fn meet_surface(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_index) index: u32,
+) {
+    let place = place_of(group, index);
+    if place >= answered.count {
         return;
     }
-    let pixel = pixel_at(id.xy);
+    let pixel = answered.pixels[place];
     var path = paths[pixel];
-    if path.stage == GONE {
-        return;
-    }
     let ray = path_rays[pixel];
     let hit = hits[pixel];
     let verdict = hit.status & 255u;

@@ -1,7 +1,9 @@
-// Rays of a batch, each with a start of its own. A pass answers those that ask its question.
+// Rays of a batch, each with a start of its own. A pass answers those that ask its question, along their
+// list.
 #define_import_path metaball::ray
 
 #import metaball::free_ray::{FreeRay, ANY_HIT}
+#import metaball::listed::{place_of, Listed}
 
 // The points `origin + t * direction`, 0 <= t <= t_max.
 struct Ray {
@@ -16,9 +18,18 @@ struct Ray {
 // One ray a pixel, row by row from the top left.
 @group(0) @binding(1) var<storage, read> free_rays: array<FreeRay>;
 
-// Whether the pixel has a ray to be answered.
-fn has_ray(pixel: u32) -> bool {
-    return free_rays[pixel].question == question;
+@group(0) @binding(6) var<storage, read> listed: Listed;
+
+// No pixel.
+const NOBODY: u32 = 0xffffffffu;
+
+// The pixel whose ray an invocation answers, or NOBODY.
+fn pixel_of(group: vec3<u32>, index: u32) -> u32 {
+    let place = place_of(group, index);
+    if place >= listed.count {
+        return NOBODY;
+    }
+    return listed.pixels[place];
 }
 
 fn ray_of(pixel: u32) -> Ray {

@@ -2,7 +2,7 @@
 // the first hit.
 #define_import_path metaball::ray
 
-#import metaball::view::{rays, view}
+#import metaball::view::{in_blocks, in_picture, pixel_at, rays, view}
 
 // The points `origin + t * direction`, 0 <= t <= t_max.
 struct Ray {
@@ -11,9 +11,13 @@ struct Ray {
     direction: vec3<f32>,
 }
 
-// Whether the pixel has a ray to be answered.
-fn has_ray(pixel: u32) -> bool {
-    return true;
+// No pixel.
+const NOBODY: u32 = 0xffffffffu;
+
+// The pixel whose ray an invocation answers, or NOBODY.
+fn pixel_of(group: vec3<u32>, index: u32) -> u32 {
+    let at = 8u * group.xy + in_blocks(index);
+    return select(NOBODY, pixel_at(at), in_picture(at));
 }
 
 fn ray_of(pixel: u32) -> Ray {

@@ -9,7 +9,7 @@
 //! *Rays can wait.* The leaf test is quadratic, and software Vulkan silently ends the loops of eight
 //! invocations after 65,535 iterations in all; a watchdog may do worse. So an invocation counts its own,
 //! and past a budget writes down where its ray stands; the next dispatch takes it up there. A frame
-//! begins with one dispatch over the picture, label `trace`, and goes on with indirect ones over
+//! begins with one dispatch over all rays, label `trace`, and goes on with indirect ones over
 //! the rays that wait, label `resume`. A frame that ends with rays waiting, or had no place for
 //! one, is incomplete; [`IsoRenderer::grow`] adds room or dispatches. Hence no ray is ever cut short,
 //! and a sparse scene pays with a few empty dispatches.
@@ -148,8 +148,8 @@ impl IsoRenderer for Renderer {
         let (Some(pipelines), Some(built)) = (&self.pipelines, &self.built) else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
-        let rays = frame.targets().bind_group();
-        record(frame, built, &pipelines.primary, rays, ("trace", "resume"), self.resumes);
+        let labels = ("trace", "resume");
+        record(frame, built, &pipelines.primary, &Rays::OfView, labels, self.resumes);
         Ok(())
     }
 
@@ -201,22 +201,35 @@ impl RayTracer for Renderer {
             Question::AnyHit => ("any hits", "resume any hits"),
             Question::Exit => ("exits", "resume exits"),
         };
-        record(frame, built, answering, batch.bind_group(), labels, self.resumes);
+        batch.encode_list(frame, question, labels.0)?;
+        record(frame, built, answering, &Rays::Listed(batch), labels, self.resumes);
         Ok(())
     }
 }
 
-/// One dispatch over the picture, and indirect ones over the rays that wait. `rays` is group 0.
+/// Which rays are traced.
+enum Rays<'a> {
+    /// One a pixel.
+    OfView,
+    /// Those of a batch that are on its list.
+    Listed(&'a RayBatch),
+}
+
+/// One dispatch over all rays, and indirect ones over those that wait.
 fn record(
     frame: &mut Frame<'_>,
     built: &Built,
     pipelines: &TracePipelines,
-    rays: &wgpu::BindGroup,
+    rays: &Rays<'_>,
     (first, next): (&'static str, &'static str),
     resumes: u32,
 ) {
+    let group = match rays {
+        Rays::OfView => frame.targets().bind_group(),
+        Rays::Listed(batch) => batch.bind_group(),
+    };
     let bind = |pass: &mut wgpu::ComputePass<'_>| {
-        pass.set_bind_group(0, rays, &[]);
+        pass.set_bind_group(0, group, &[]);
         pass.set_bind_group(1, built.scene.bind_group(), &[]);
         pass.set_bind_group(2, built.tree.bind_group(), &[]);
     };
@@ -225,7 +238,10 @@ fn record(
     frame.compute(first, |pass| {
         pass.set_pipeline(&pipelines.trace);
         bind(pass);
-        pass.dispatch_workgroups(across, down, 1);
+        match rays {
+            Rays::OfView => pass.dispatch_workgroups(across, down, 1),
+            Rays::Listed(batch) => pass.dispatch_workgroups_indirect(batch.list(), 0),
+        }
     });
     built.waiting.count(frame.encoder());
     for _ in 0..resumes {

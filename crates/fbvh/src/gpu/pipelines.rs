@@ -2,7 +2,7 @@
 
 use metaball_core::gpu::{
     Binding, Gpu, Question, RenderError, Specialization, bind_group_layout, compute_pipeline,
-    frame_layout, scene_layout,
+    frame_layout, free_ray_layout, scene_layout,
 };
 use metaball_core::{Kernel, KernelForm};
 
@@ -21,7 +21,8 @@ pub(super) struct Specialized {
 
 /// The bind group layouts, by group.
 pub(super) struct Layouts {
-    frame: wgpu::BindGroupLayout,
+    primary: wgpu::BindGroupLayout,
+    free: wgpu::BindGroupLayout,
     scene: wgpu::BindGroupLayout,
     pub(super) tree: wgpu::BindGroupLayout,
 }
@@ -50,7 +51,8 @@ impl Pipelines {
     ) -> Result<Self, RenderError> {
         let scene = &specialized.scene;
         let layouts = Layouts {
-            frame: frame_layout(gpu, scene),
+            primary: frame_layout(gpu, scene),
+            free: free_ray_layout(gpu, scene),
             scene: scene_layout(gpu, scene),
             tree: tree_layout(gpu),
         };
@@ -104,7 +106,8 @@ impl TracePipelines {
         if kind != Kind::Certified {
             constants.extend(published);
         }
-        let groups = [&layouts.frame, &layouts.scene, &layouts.tree];
+        let rays = if question.is_some() { &layouts.free } else { &layouts.primary };
+        let groups = [rays, &layouts.scene, &layouts.tree];
         let pipeline = |label, entry| {
             compute_pipeline(gpu, label, "fbvh/trace", entry, &spec, &groups, &constants)
         };

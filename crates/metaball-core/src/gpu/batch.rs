@@ -4,7 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::layout::group;
-use super::{Frame, Gpu, RenderError, Specialization, Targets, frame_layout};
+use super::ray_list::RayList;
+use super::{Frame, Gpu, RenderError, Specialization, Targets, free_ray_layout};
 use crate::{Color, Hit, PackedHit, Ray};
 
 /// What a ray asks of the scene.
@@ -70,12 +71,13 @@ impl FreeRay {
 
 /// One free ray for each pixel of some targets, and room for its answer. Whoever fills the rays
 /// decides what they are. Answers count in the status of the targets' frame, and work in the
-/// targets' counters. 48 bytes a pixel; 4 more with colours.
+/// targets' counters. 52 bytes a pixel; 4 more with colours.
 #[derive(Debug)]
 pub struct RayBatch {
     rays: wgpu::Buffer,
     hits: wgpu::Buffer,
     colors: Option<wgpu::Buffer>,
+    list: RayList,
     bind_group: wgpu::BindGroup,
 }
 
@@ -95,22 +97,45 @@ impl RayBatch {
             .then(|| one_a_pixel("colours at free rays", size_of::<Color>()))
             .transpose()?;
 
+        let list = RayList::new(gpu, pixels, &targets.view, &rays)?;
+
         let mut buffers = vec![(0, &targets.view), (1, &rays), (2, &hits), (3, &targets.status)];
         buffers.extend(colors.as_ref().map(|buffer| (4, buffer)));
         buffers.extend(targets.work().map(|buffer| (5, buffer)));
+        buffers.push((6, list.buffer()));
         let spec = Specialization {
             colors: has_colors,
             counting: targets.work().is_some(),
             ..Specialization::without_balls()
         };
-        let layout = frame_layout(gpu, &spec);
+        let layout = free_ray_layout(gpu, &spec);
         let bind_group = gpu.checked(|| group(gpu, "free rays", &layout, &buffers))?;
-        Ok(Self { rays, hits, colors, bind_group })
+        Ok(Self { rays, hits, colors, list, bind_group })
     }
 
-    /// Group 0 of the passes that answer, laid out as [`frame_layout`].
+    /// Group 0 of the passes that answer, laid out as [`free_ray_layout`].
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         &self.bind_group
+    }
+
+    /// Records the pass that lists the rays which ask this question, so that who answers them, and who takes
+    /// up the answers, has nothing but work side by side.
+    ///
+    /// # Errors
+    /// When the pass cannot be made.
+    pub fn encode_list(
+        &self,
+        frame: &mut Frame<'_>,
+        question: Question,
+        label: &'static str,
+    ) -> Result<(), RenderError> {
+        self.list.encode(frame, question, label)
+    }
+
+    /// The last list, WGSL's `Listed` of `ray/listed.wgsl`. Begins with twelve bytes for an indirect dispatch
+    /// along it, 64 rays a workgroup.
+    pub fn list(&self) -> &wgpu::Buffer {
+        self.list.buffer()
     }
 
     /// One [`FreeRay`] a pixel, to be written.
@@ -130,7 +155,8 @@ impl RayBatch {
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.rays.size() + self.hits.size() + self.colors.as_ref().map_or(0, wgpu::Buffer::size)
+        let colors = self.colors.as_ref().map_or(0, wgpu::Buffer::size);
+        self.rays.size() + self.hits.size() + self.list.buffer().size() + colors
     }
 
     /// Sends rays from the host, row by row from the top left; what is left of the batch asks nothing.
@@ -169,9 +195,10 @@ pub trait RayTracer {
     /// Whether the method answers such questions.
     fn answers(&self, question: Question) -> bool;
 
-    /// Records the passes that answer the rays of a batch that ask this question, and leave the
-    /// others alone. The batch is one of the frame's targets. An answer that a further ray may start
-    /// from tells its clearance ([`PackedHit::clearance`]).
+    /// Records the passes that list the rays of a batch that ask this question
+    /// ([`RayBatch::encode_list`]) and answer them, and leave the others alone. The batch is one of the frame's
+    /// targets. An answer that a further ray may start from tells its clearance
+    /// ([`PackedHit::clearance`]).
     ///
     /// # Errors
     /// When the method does not answer such questions, or a pass cannot be recorded.

@@ -28,7 +28,9 @@
 //! What a method promises is first hits of primary rays. A method that can follow any ray says so with
 //! [`IsoRenderer::ray_tracer`]: it answers the questions of a [`RayBatch`], one ray a pixel, each with a
 //! start of its own. Its shaders are the same but for the module that hands out rays
-//! (`ray/primary.wgsl`, `ray/free.wgsl`), so that primary rays pay nothing for it.
+//! (`ray/primary.wgsl`, `ray/free.wgsl`), so that primary rays pay nothing for it. Free rays are handed out
+//! along a list of those that ask ([`RayBatch::encode_list`]): after a few bounces they are few and far
+//! between.
 //!
 //! # Two kinds of trouble
 //! *Incomplete*: a pool, list or pass limit was too small for this frame. Shaders count the rays that
@@ -53,6 +55,7 @@ mod error;
 mod frame;
 mod layout;
 mod pipeline;
+mod ray_list;
 mod rays;
 mod renderer;
 mod scene_buffers;
@@ -74,5 +77,5 @@ pub use rays::PackedRay;
 pub use renderer::{BuildReport, IsoRenderer, render, render_with};
 pub use scene_buffers::{KernelRead, SceneBuffers, SceneHeader, scene_layout};
 pub use shade::{Image, Picture, Shaded, Shading, ValueRange};
-pub use targets::{TILE, Targets, ViewUniform, frame_layout};
+pub use targets::{TILE, Targets, ViewUniform, frame_layout, free_ray_layout};
 pub use work::{Work, WorkKind};

@@ -109,7 +109,7 @@ impl Targets {
         let mut buffers = vec![(0, &view), (1, &rays), (2, &hits), (3, &status)];
         buffers.extend(colors.as_ref().map(|buffer| (4, buffer)));
         buffers.extend(work.as_ref().map(|buffer| (5, buffer)));
-        let layout = layout_of(gpu, colors.is_some(), work.is_some());
+        let layout = layout_of(gpu, colors.is_some(), work.is_some(), false);
         let bind_group = gpu.checked(|| group(gpu, "frame", &layout, &buffers))?;
         let free_rays = RayPass::free(gpu, &view, &rays, &hits)?;
         Ok(Self {
@@ -248,13 +248,20 @@ impl Targets {
 
 /// Layout of group 0. What a specialisation does not use is not in it.
 pub fn frame_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
-    layout_of(gpu, spec.colors, spec.counting)
+    layout_of(gpu, spec.colors, spec.counting, false)
 }
 
-fn layout_of(gpu: &Gpu, colors: bool, counting: bool) -> wgpu::BindGroupLayout {
+/// The same for passes that answer the rays of a [`RayBatch`](super::RayBatch): with its rays and hits in the
+/// place of the frame's, and the list of the rays that ask.
+pub fn free_ray_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
+    layout_of(gpu, spec.colors, spec.counting, true)
+}
+
+fn layout_of(gpu: &Gpu, colors: bool, counting: bool, listed: bool) -> wgpu::BindGroupLayout {
     let mut bindings =
         vec![(0, Binding::Uniform), (1, Binding::Read), (2, Binding::Write), (3, Binding::Write)];
     bindings.extend(colors.then_some((4, Binding::Write)));
     bindings.extend(counting.then_some((5, Binding::Write)));
+    bindings.extend(listed.then_some((6, Binding::Read)));
     layout(gpu, "frame", &bindings)
 }

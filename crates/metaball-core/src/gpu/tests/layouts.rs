@@ -2,6 +2,7 @@
 
 use metaball_shaders::{StructLayout, Variant, compose, host_layout, struct_layout};
 
+use crate::gpu::ray_list::ListHead;
 use crate::gpu::spheres::CoreSphere;
 use crate::gpu::{
     FrameStatus, FreeRay, KernelRead, PackedRay, SceneHeader, ValueRange, ViewUniform, Work,
@@ -53,6 +54,10 @@ fn host_structs_are_their_twins() {
     for (device, host) in twins {
         assert_eq!(device, host);
     }
+    let head = host_layout!(ListHead { groups_x, groups_y, groups_z, count });
+    let listing = wgsl("ray/list", "Listing");
+    assert_eq!(head.members[..], listing.members[..4]);
+    assert_eq!(listing.members[4], ("pixels".to_owned(), head.size));
 }
 
 #[test]
