@@ -14,7 +14,7 @@
 struct Listing {
     groups_x: atomic<u32>,
     groups_y: atomic<u32>,
-    groups_z: u32,
+    groups_z: atomic<u32>,
     count: atomic<u32>,
     pixels: array<u32>,
 }
@@ -47,7 +47,7 @@ fn list_rays(
         let groups = (first + count + 63u) / 64u;
         atomicMax(&listing.groups_x, min(groups, ACROSS));
         atomicMax(&listing.groups_y, (groups + ACROSS - 1u) / ACROSS);
-        listing.groups_z = 1u;
+        atomicMax(&listing.groups_z, 1u);
     }
     workgroupBarrier();
     if asks {
