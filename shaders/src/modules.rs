@@ -70,6 +70,7 @@ pub const MODULES: &[Module] = &[
     import!("exponent/compiled"),
     import!("exponent/read"),
     import!("kernel/read"),
+    import!("kernel/powers"),
     import!("kernel/power"),
     import!("kernel/wyvill"),
     import!("kernel/perlin"),

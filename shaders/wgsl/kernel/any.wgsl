@@ -4,6 +4,7 @@
 
 #import metaball::exponent::exponent
 #import metaball::kernel_read::{kernel_read, PERLIN, POWER}
+#import metaball::powers::power
 
 // v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {
@@ -31,17 +32,6 @@ fn kernel_slope(v: f32) -> f32 {
         return 15.0 * rho * rest * rest;
     }
     return depth * (10.0 + 12.0 * depth) * (1.0 / 9.0);
-}
-
-// v^n by repeated squaring.
-fn power(v: f32, n: u32) -> f32 {
-    let squared = v * v;
-    let fourth = squared * squared;
-    var product = select(1.0, v, (n & 1u) != 0u);
-    product *= select(1.0, squared, (n & 2u) != 0u);
-    product *= select(1.0, fourth, (n & 4u) != 0u);
-    product *= select(1.0, fourth * fourth, (n & 8u) != 0u);
-    return product;
 }
 
 // |d2k/dt2| R^2 along any line is nowhere more.

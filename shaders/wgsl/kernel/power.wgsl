@@ -2,6 +2,7 @@
 #define_import_path metaball::kernel
 
 #import metaball::exponent::exponent
+#import metaball::powers::power
 
 // v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {
@@ -14,17 +15,6 @@ fn kernel_slope(v: f32) -> f32 {
         return 0.0;
     }
     return f32(exponent()) * power(v, exponent() - 1u);
-}
-
-// v^n by repeated squaring, in the order of multiplications of `Kernel::value_at_depth`.
-fn power(v: f32, n: u32) -> f32 {
-    let squared = v * v;
-    let fourth = squared * squared;
-    var product = select(1.0, v, (n & 1u) != 0u);
-    product *= select(1.0, squared, (n & 2u) != 0u);
-    product *= select(1.0, fourth, (n & 4u) != 0u);
-    product *= select(1.0, fourth * fourth, (n & 8u) != 0u);
-    return product;
 }
 
 // |d2k/dt2| R^2 along any line is nowhere more: 2 alpha v^(alpha - 1) where the line is nearest,
