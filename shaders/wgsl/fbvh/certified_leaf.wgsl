@@ -47,7 +47,8 @@ const SOLVE: u32 = 2u;
 
 // The search as it stands, in the leaf's local t: nothing before `low` reaches 0, the interval looked
 // at is from `low_value` to `high`; between the ends of a bracket, `high_value` is where the root is
-// next looked for. `iterations` counts looks. A hit leaves its global t in `high`.
+// next looked for. `iterations` counts looks, up to one more once the ray's start has been asked about. A hit
+// leaves its global t in `high`.
 struct Search {
     stage: u32,
     next: u32,
@@ -160,11 +161,13 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     }
 
     // A look that tells anything has found the excess below 0 where it begins. Without, the ray's start may be
-    // beyond the root.
-    if search.stage == NARROW && frame.starts && search.low == frame.enter {
+    // beyond the root: that is asked once.
+    let is_new = frame.starts && search.low == frame.enter && search.iterations <= LOOKS;
+    if search.stage == NARROW && is_new {
         if !can_walk(walk_length()) {
             return WAITING;
         }
+        search.iterations = LOOKS + 1u;
         let start = bounds_on(frame, ray.direction, frame.enter, frame.enter);
         if start.end_least >= 0.0 {
             return found_at(0.0, INSIDE);

@@ -3,9 +3,12 @@
 //! The method puts a ray's start beside the surface, and all that counts is whether the answer is true
 //! of the ray as it was sent: a start on the wrong side would be seen as a ray that starts inside.
 
+use bench_scenes::{BenchScene, cases};
 use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
-use metaball_core::gpu::{FreeRay, Gpu, Question, RayBatch, RenderError, Targets, render_with};
+use metaball_core::gpu::{
+    FrameStatus, FreeRay, Gpu, Question, RayBatch, RenderError, Targets, render_with,
+};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
 use metaball_light::{Effects, Environment, Floor, Lamp, Occlusion, Studio, Surface};
@@ -54,7 +57,14 @@ pub(super) fn trials() -> Vec<Trial> {
         let test = move |gpu: &'static Gpu| any_scale(gpu, exponent);
         trials.push(on_gpu(format!("light::any_scale::1e{exponent}"), test));
     }
-    trials.push(on_gpu("light::rays_from_anywhere".to_owned(), rays_from_anywhere));
+    trials.push(on_gpu("light::rays_from_anywhere".to_owned(), |gpu| {
+        rays_from_anywhere(gpu, &load("random-200")?, usize::MAX)
+    }));
+    trials.push(on_gpu("light::rays_from_within_a_crowd".to_owned(), |gpu| {
+        let crowd = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
+        rays_from_anywhere(gpu, &crowd.scene(4096.0)?, 240)
+    }));
+    trials.push(on_gpu("light::frames_without_end_are_given_up".to_owned(), given_up));
     trials.push(on_gpu("light::canary::wrong_answers".to_owned(), rejects_wrong_answers));
     trials.push(on_gpu("light::canary::starts_on_the_surface".to_owned(), rejects_no_clearance));
     trials.push(on_gpu("light::same_seed_same_picture".to_owned(), same_seed_same_picture));
@@ -201,15 +211,14 @@ fn certified(gpu: &Gpu, scene: &'static str, kind: Kind) -> Result<(), Failed> {
     sound(&findings)
 }
 
-/// Rays of the host's own, with starts and directions all over the scene, in the solid and out of it, some
-/// of them short.
-fn rays_from_anywhere(gpu: &Gpu) -> Result<(), Failed> {
-    let bench = load("random-200")?;
-    let (scene, view) = (&bench.scene, view_of(&bench)?);
+/// Rays of the host's own, one a pixel or so many, with starts and directions all over the scene, in the solid
+/// and out of it, some of them short.
+fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), Failed> {
+    let (scene, view) = (&bench.scene, view_of(bench)?);
     let oracle = Oracle::new(scene);
     let threshold = f64::from(scene.threshold());
     let bounds = scene.bounds();
-    let rays: Vec<_> = (0..view.pixels())
+    let rays: Vec<_> = (0..view.pixels().min(most))
         .map(|index| {
             let place = (index as f32 * Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5)).fract();
             let toward = (index as f32 * Vec3::new(0.235_4, 0.915_7, 0.430_1)).fract() - 0.5;
@@ -245,6 +254,19 @@ fn rays_from_anywhere(gpu: &Gpu) -> Result<(), Failed> {
         return Err(format!("{} rays of {}, {exits} exits", asked.len(), rays.len()).into());
     }
     pass(&findings)
+}
+
+/// A frame of which some ray never says that it is finished ends as an error, after a few attempts.
+fn given_up(gpu: &Gpu) -> Result<(), Failed> {
+    let mut renderer = renderer(CERTIFIED)?;
+    renderer.build(gpu, &load("two-merging")?.scene)?;
+    let status = FrameStatus { unfinished: 1, needed: [0; 4] };
+    for _ in 0..20 {
+        if !renderer.grow(gpu, &status)? {
+            return Ok(());
+        }
+    }
+    Err("needed an end, found none after 20 attempts".into())
 }
 
 /// A published tree may miss what its paper's assumption does not cover, as with primary rays. It may not

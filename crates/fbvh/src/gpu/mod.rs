@@ -62,6 +62,9 @@ use crate::{Kind, Options, TraceOptions, Tree};
 /// Dispatches after the first that a frame begins life with.
 const FIRST_RESUMES: u32 = 4;
 
+/// Dispatches after which a frame is given up as unfinished: seconds, were they empty.
+const MOST_RESUMES: u32 = 1 << 16;
+
 /// Draws primary rays through a tree of the scene.
 pub struct Renderer {
     name: &'static str,
@@ -165,10 +168,11 @@ impl IsoRenderer for Renderer {
         if slots > built.waiting.slots() {
             built.waiting = WaitingRoom::with_slots(gpu, slots)?;
             built.tree.rebind(gpu, &pipelines.layouts, &built.waiting);
-        } else {
-            self.resumes = self.resumes.saturating_mul(2);
+            return Ok(true);
         }
-        Ok(true)
+        let can_grow = self.resumes < MOST_RESUMES;
+        self.resumes = (2 * self.resumes).min(MOST_RESUMES);
+        Ok(can_grow)
     }
 
     fn ray_tracer(&mut self) -> Option<&mut dyn RayTracer> {

@@ -178,9 +178,8 @@ impl Tally {
         let mut judgement = Judgement::new(&truth, &hit);
         let is_undecided = judgement.finding == Finding::Undecided;
         if exam.question == Question::Exit && (judgement.is_wrong() || is_undecided) {
-            // A start too close to T to tell excuses doubt, and no answer about the way out.
-            let is_doubt_due = is_undecided && judgement.ambiguous;
-            judgement.ambiguous = is_doubt_due || exit_is_ambiguous(exam, &aimed.ray, truth.t);
+            judgement.ambiguous =
+                judgement.ambiguous || exit_is_ambiguous(exam, &aimed.ray, truth.t);
         }
         let is_wrong = judgement.is_wrong() && !is_as_near_as_floats(&truth, &hit);
 
@@ -298,4 +297,45 @@ fn exit_is_ambiguous(exam: &Exam<'_>, ray: &Ray, leaves: f64) -> bool {
             one != other && (one - other).abs() > reach.min(f64::from(NO_LIMIT))
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use metaball_core::{Kernel, Metaball};
+
+    use super::*;
+    use crate::certify::aim;
+
+    /// Doubts about the way out through a ball, from so far right of its centre to the left, that are counted
+    /// as clear rays'; and wrong answers.
+    fn counted(start: f32, found: Hit) -> (u64, u64) {
+        let ball = Metaball::new(Vec3::ZERO, 1.0);
+        let scene = Scene::new([ball], Kernel::QUARTIC, 0.5).expect("legal");
+        let oracle = Oracle::new(&scene);
+        let exam = Exam {
+            shard: "one ball",
+            scene: &scene,
+            oracle: &oracle,
+            tracer: Tracer::Adapter,
+            question: Question::Exit,
+        };
+        let ray = Ray::new(Vec3::X * start, Vec3::NEG_X);
+        let mut tally = Tally::default();
+        let truth = oracle.first_hit(&ray);
+        assert_eq!(truth.verdict, Verdict::Inside);
+        tally.count(&exam, &aim::of_picture(ray), &truth, &found);
+        let count = tally.counts.values().next().expect("counted");
+        (count.undecided_clear, count.wrong)
+    }
+
+    #[test]
+    fn nothing_is_held_of_a_start_too_close_to_t() {
+        let doubt = Hit { verdict: Verdict::Undecided, ..Hit::MISS };
+        // The field is T at 0.541196.
+        let (close, clear) = (0.541_195, 0.3);
+        assert_eq!([counted(close, doubt), counted(clear, doubt)], [(0, 0), (1, 0)]);
+        let late = Hit { verdict: Verdict::Hit, t: 0.9 * (close + 0.541_196), ..Hit::MISS };
+        assert_eq!([counted(close, late), counted(clear, late)], [(0, 0), (0, 1)]);
+    }
 }
