@@ -119,10 +119,11 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
             return MISSED;
         }
         count_leaf_test();
-        // A leaf without a list is solid. Its faces lie inside the surface: a ray that is in it for no
-        // longer than rounding can make up is told by the leaves around.
+        // A leaf without a list is solid. Its faces lie inside the surface: a ray that comes to it and is in it
+        // for no longer than rounding can make up is told by the leaves around.
         if first == end {
-            if !SOLID_ENDS || frame.leave - frame.enter <= 4.0 * frame.slack {
+            let is_told = frame.starts_within || frame.leave - frame.enter > 4.0 * frame.slack;
+            if !SOLID_ENDS || !is_told {
                 return MISSED;
             }
             return found_at(max(at(frame, frame.enter), 0.0), select(HIT, INSIDE, frame.starts));

@@ -21,8 +21,9 @@ struct Frame {
     // Where the ray enters and leaves the leaf's box, in t from o'; empty where it does not.
     enter: f32,
     leave: f32,
-    // Whether the ray starts in the box.
+    // Whether the ray starts in the box, and whether no rounding is behind that.
     starts: bool,
+    starts_within: bool,
     // How far rounding can misplace `origin`.
     misplaced: f32,
     // How far past the box's faces the stretch reaches: what rounding may do to a point of the ray.
@@ -81,7 +82,7 @@ fn local_frame(ray: Ray, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>) ->
     let misplaced = UNIT * (4.0 * length(origin) + 2.0 * length(middling));
     return Frame(
         center, origin, base_high, base_low,
-        max(enter, start), last, enter <= start && start <= last,
+        max(enter, start), last, enter <= start && start <= last, starts_within,
         misplaced, slack,
     );
 }

@@ -60,6 +60,9 @@ pub(super) fn trials() -> Vec<Trial> {
     trials.push(on_gpu("light::rays_from_anywhere".to_owned(), |gpu| {
         rays_from_anywhere(gpu, &load("random-200")?, usize::MAX)
     }));
+    trials.push(on_gpu("light::rays_from_within_a_pool".to_owned(), |gpu| {
+        rays_from_anywhere(gpu, &load("pool-10k")?, 600)
+    }));
     trials.push(on_gpu("light::rays_from_within_a_crowd".to_owned(), |gpu| {
         let crowd = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
         rays_from_anywhere(gpu, &crowd.scene(4096.0)?, 240)
@@ -212,7 +215,7 @@ fn certified(gpu: &Gpu, scene: &'static str, kind: Kind) -> Result<(), Failed> {
 }
 
 /// Rays of the host's own, one a pixel or so many, with starts and directions all over the scene, in the solid
-/// and out of it, some of them short.
+/// and out of it, some of them short, and some no longer than rounding.
 fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), Failed> {
     let (scene, view) = (&bench.scene, view_of(bench)?);
     let oracle = Oracle::new(scene);
@@ -229,7 +232,8 @@ fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), 
             if index % 3 == 0 && (is_inside || index % 2 == 0) {
                 return FreeRay::new(&ray, Question::Exit);
             }
-            let t_max = if index % 2 == 0 { NO_LIMIT } else { 0.2 * bounds.extent().x };
+            let width = bounds.extent().x;
+            let t_max = [NO_LIMIT, 0.2 * width, 1e-9 * width][index % 5 % 3];
             let question = [Question::FirstHit, Question::AnyHit][index / 2 % 2];
             FreeRay::new(&Ray { t_max, ..ray }, question)
         })
