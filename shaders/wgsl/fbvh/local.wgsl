@@ -21,8 +21,9 @@ struct Frame {
     // Where the ray enters and leaves the leaf's box, in t from o'; empty where it does not.
     enter: f32,
     leave: f32,
-    // Whether the ray starts in the box, and whether no rounding is behind that.
+    // Whether the ray starts in the box, as far as rounding lets one tell.
     starts: bool,
+    // Whether it certainly does.
     starts_within: bool,
     // How far rounding can misplace `origin`.
     misplaced: f32,

@@ -79,13 +79,10 @@ struct Path {
     doubts: u32,
 }
 
-// The path has reached the eye in full.
-const GONE: u32 = 0u;
-// Its ray runs outside of the solid, or inside.
+// Its ray runs outside of the solid, or inside. A path whose ray and feeler ask nothing has reached the eye
+// in full.
 const OUTSIDE: u32 = 1u;
 const WITHIN: u32 = 2u;
-// It stands on a surface, from which feelers are sent.
-const FEELING: u32 = 3u;
 
 // The path's own rays.
 @group(0) @binding(1) var<storage, read_write> path_rays: array<FreeRay>;

@@ -4,7 +4,7 @@
 #import metaball::free_ray::{FreeRay, ANSWERED, ANY_HIT, EXIT, FIRST_HIT}
 #import metaball::effects::environment::ambient
 #import metaball::effects::floor::beyond
-#import metaball::effects::path::{feelers, lights, path_rays, settings, Path, FEELING, GONE, OUTSIDE, WITHIN}
+#import metaball::effects::path::{feelers, lights, path_rays, settings, Path, OUTSIDE, WITHIN}
 #import metaball::effects::sampling::{around, on_disc, point_in_square}
 #import metaball::view::NO_LIMIT
 
@@ -59,7 +59,6 @@ fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
             is_sent = feel_for_sky(path, pixel, direction, number - shadow_rays);
         }
         if is_sent {
-            (*path).stage = FEELING;
             return;
         }
     }
@@ -70,7 +69,6 @@ fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     if mirror == 0.0 || (*path).bounces >= settings.bounces {
         // The last surface of a path mirrors the surroundings alone.
         (*path).radiance += (*path).throughput * beyond((*path).place, toward);
-        (*path).stage = GONE;
         path_rays[pixel].question |= ANSWERED;
         return;
     }
@@ -181,7 +179,6 @@ fn pass_through(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     if (*path).bounces >= settings.bounces {
         // Beyond the last surface there are only the surroundings.
         (*path).radiance += (*path).throughput * beyond((*path).place, toward);
-        (*path).stage = GONE;
         path_rays[pixel].question |= ANSWERED;
         return;
     }

@@ -6,7 +6,7 @@
 #import metaball::hit::{clearance_of, hits, unfold, HIT, INSIDE, MISS}
 #import metaball::effects::environment::environment
 #import metaball::effects::floor::{floor_along, floor_base, floor_clearance, horizon, presence, UP}
-#import metaball::effects::path::{answered, path_rays, paths, settings, Path, GONE, OUTSIDE, WITHIN}
+#import metaball::effects::path::{answered, path_rays, paths, settings, Path, OUTSIDE, WITHIN}
 #import metaball::effects::scatter::{go_on, light_directly}
 #import metaball::listed::place_of
 #import metaball::view::NO_LIMIT
@@ -52,7 +52,6 @@ fn meet_surface(
         path.doubts += u32(verdict == INSIDE && path.bounces > 0u && path.stage == OUTSIDE);
     } else {
         path.radiance += path.throughput * environment(ray.direction);
-        path.stage = GONE;
         path_rays[pixel].question |= ANSWERED;
         paths[pixel] = path;
         return;

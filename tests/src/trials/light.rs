@@ -228,8 +228,8 @@ fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), 
             let origin = bounds.min + place * bounds.extent();
             let ray = Ray::new(origin, toward.normalize_or(Vec3::X));
             // Half of the others start outside: they are out at once, though the ray comes to the solid.
-            let is_inside = oracle.field(origin.as_dvec3()) > 1.01 * threshold;
-            if index % 3 == 0 && (is_inside || index % 2 == 0) {
+            let is_inside = || oracle.field(origin.as_dvec3()) > 1.01 * threshold;
+            if index % 3 == 0 && (index % 2 == 0 || is_inside()) {
                 return FreeRay::new(&ray, Question::Exit);
             }
             let width = bounds.extent().x;
