@@ -19,13 +19,21 @@ fn trees(scene: &Scene) -> [Tree; 2] {
 
 /// What is wrong with a hit where a ray alone has another.
 ///
-/// Where f32 cannot tell, normals are of the point that f32 makes of t, off by a few 1e-7 of it; and
-/// where the field only just comes to T, at a ball's very centre perhaps, they may be any.
+/// A normal may be of the point that f32 makes of t, off by a few 1e-7 of it: as far as normals differ
+/// around there, so may these. Where the field only just comes to T, at a ball's very centre perhaps, they
+/// may be any.
 fn difference(oracle: &Oracle<'_>, ray: &Ray, hit: &Hit, single: &Hit) -> Option<String> {
     let truth = oracle.first_hit(ray);
     let is_near = hit.t == single.t || (hit.t - single.t).abs() <= 1e-6 * single.t.abs();
-    let misplaced = if single.is_hit() { 1e-6 * single.t / truth.smallest_radius } else { 0.0 };
-    let has_normal = hit.normal.distance(single.normal) <= 1e-3 + misplaced || truth.is_ambiguous();
+    let reach = 5e-7 * f64::from(single.t);
+    let point = ray.origin.as_dvec3() + f64::from(single.t) * ray.direction.as_dvec3();
+    let around = DVec3::AXES.map(|axis| {
+        let [before, behind] = [-reach, reach].map(|way| oracle.normal(point + way * axis));
+        before.distance(behind) as f32
+    });
+    let is_told = single.is_hit() && !truth.is_ambiguous();
+    let apart = hit.normal.distance(single.normal);
+    let has_normal = !is_told || apart <= 1e-3 + around.iter().sum::<f32>();
     let is_same = hit.verdict == single.verdict && is_near && has_normal;
     (!is_same).then(|| format!("{ray:?}: {hit:?} in company, alone {single:?}"))
 }
