@@ -8,9 +8,6 @@ use metaball_core::{Kernel, KernelForm};
 
 use crate::{Kind, Reading, TraceOptions};
 
-/// Override constant of `ray/free.wgsl`: its `@id`.
-const QUESTION: &str = "2";
-
 /// What selects pipelines; when it stays the same, they stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Specialized {
@@ -102,7 +99,7 @@ impl TracePipelines {
             ("20", f64::from(options.max_iterations)),
         ];
         let mut constants = vec![("21", f64::from(root))];
-        constants.extend(question.map(|question| (QUESTION, f64::from(question as u32))));
+        constants.extend(question.map(|question| (Question::CONSTANT, f64::from(question as u32))));
         if kind != Kind::Certified {
             constants.extend(published);
         }

@@ -26,6 +26,10 @@ pub enum Question {
 impl Question {
     /// Every question, in the order of their numbers.
     pub const ALL: [Self; 3] = [Self::FirstHit, Self::AnyHit, Self::Exit];
+
+    /// The override constant, by its `@id`, that tells a pass of `ray/list.wgsl` or `ray/free.wgsl` the
+    /// question it is for.
+    pub const CONSTANT: &str = "2";
 }
 
 /// A ray of a batch as shaders see it: WGSL's `FreeRay` of `ray/record.wgsl`, 32 bytes.

@@ -8,9 +8,6 @@ use super::layout::{Binding, group, layout};
 use super::pipeline::{Specialization, compute_pipeline};
 use super::{Frame, Gpu, Question, RenderError};
 
-/// Override constant of `ray/list.wgsl` and `ray/free.wgsl`: its `@id`.
-const QUESTION: &str = "2";
-
 /// What a list begins with: WGSL's `Listed` of `ray/listed.wgsl`. The first twelve bytes are the size of an
 /// indirect dispatch along it.
 #[repr(C)]
@@ -80,7 +77,7 @@ impl RayList {
             return Ok(made);
         }
         let spec = Specialization::without_balls();
-        let constants = [(QUESTION, f64::from(question as u32))];
+        let constants = [(Question::CONSTANT, f64::from(question as u32))];
         let layouts = [&self.layout];
         let made = compute_pipeline(
             gpu,
