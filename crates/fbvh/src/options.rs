@@ -36,8 +36,8 @@ pub struct Classes {
     /// as many where a cut would leave most of them on both sides.
     pub leaf_size: u32,
     /// Nor are boxes whose longest side is below this share of their balls' radius, the mean
-    /// weighted by what each adds; or below 0.36 of that share, where more than three times as many balls
-    /// as make a leaf reach them.
+    /// weighted by what each adds. Where n balls reach a box, more than three times as many as make a leaf,
+    /// that share is divided by the cube root of n / `leaf_size`.
     pub smallest_side: f32,
 }
 

@@ -33,10 +33,10 @@ const TELLING: f32 = 3.0;
 /// of up to twice as many balls as a leaf has anyway.
 const TWICE: f32 = 0.6;
 
-/// A list of more than so many full leaves is long: it is worth boxes that are shorter, by this factor,
-/// than the smallest side asks. Most such boxes turn out to be solid or empty.
-const LONG: u32 = 3;
-const SHORTER: f32 = 0.36;
+/// A list of more than so many full leaves is long: it is worth boxes that are shorter than the smallest
+/// side asks, by the cube root of how many leaves it would fill. Most such boxes turn out to be solid or
+/// empty.
+const LONG: f32 = 3.0;
 
 /// Balls are a pile where their centres are in a box of at most this share of the least radius: at the
 /// smallest side that boxes are cut down to, hardly one of them would be off any list.
@@ -116,8 +116,8 @@ impl Builder {
         let axis = longest_axis(&part.bounds);
         let side = part.bounds.extent()[axis];
         let (least, largest) = radii(list);
-        let is_long = list.len() > (LONG * classes.leaf_size) as usize;
-        let smallest = classes.smallest_side * if is_long { SHORTER } else { 1.0 };
+        let filled = list.len() as f32 / classes.leaf_size.max(1) as f32;
+        let smallest = classes.smallest_side / if filled > LONG { filled.cbrt() } else { 1.0 };
         let is_short = |radius: f32| side < smallest * radius;
         let is_wide = side > WIDEST * least;
         // The mean lies between the extremes, and takes longer.
