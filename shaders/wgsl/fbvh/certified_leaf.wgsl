@@ -10,8 +10,8 @@
 #import metaball::fbvh::excess::{bounds_on, stays_below, SIGN, SOLID_ENDS}
 #import metaball::fbvh::local::{at, local_frame, Frame, UNIT}
 #import metaball::fbvh::look::{look, LOOKS}
-#import metaball::fbvh::nearby::{ball_of, begin_walk, gather, near_in, walk_length, words}
-#import metaball::fbvh::outlook::{BELOW, ONCE, UNCLEAR}
+#import metaball::fbvh::nearby::{ball_of, begin_walk, gather, near_in, walk_length, words, WORDS}
+#import metaball::fbvh::outlook::{ABOVE, BELOW, ONCE, UNCLEAR}
 #import metaball::fbvh::projection::{project, rim_share}
 #import metaball::fbvh::structure::{leaves, Leaf}
 #import metaball::fbvh::suspend::can_walk
@@ -111,7 +111,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     let end = leaves[index + 1u].first;
     let frame = local_frame(ray, inverse, leaf.min, leaf.max);
 
-    if !can_walk(end - first + 1u) {
+    if !can_walk(end - first + WORDS + 1u) {
         return WAITING;
     }
     if search.stage == ENTER {
@@ -148,10 +148,10 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         if seen.outcome == BELOW && search.high >= frame.leave {
             return MISSED;
         }
+        if seen.outcome == ABOVE {
+            return found_at(max(at(frame, seen.high), 0.0), HIT);
+        }
         if seen.outcome == ONCE {
-            if any_will_do() {
-                return found_at(max(at(frame, search.high), 0.0), HIT);
-            }
             search.stage = SOLVE;
             search.high_value = seen.guess;
         } else {

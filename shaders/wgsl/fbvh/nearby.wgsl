@@ -32,19 +32,21 @@ fn gather(frame: Frame, direction: vec3<f32>, list_first: u32, list_end: u32) ->
         return 1e38;
     }
     count_evaluations(count);
-    spent += count + 1u;
+    spent += walk_length();
     count = 0u;
     var most = 0.0;
-    var bits = 0u;
-    for (var entry = first; entry < end; entry++) {
-        let place = entry - first;
-        let seen = project(frame, direction, lists[entry]);
-        let v = greatest_depth(seen, frame.enter, frame.leave);
-        let is_near = u32(v > 0.0);
-        bits = select(bits, 0u, place % 32u == 0u) | (is_near << (place % 32u));
-        near[place / 32u] = bits;
-        count += is_near;
-        most += seen.weight * kernel(v);
+    for (var word = 0u; word < words(); word++) {
+        let word_first = first + 32u * word;
+        let word_end = min(word_first + 32u, end);
+        var bits = 0u;
+        for (var entry = word_first; entry < word_end; entry++) {
+            let seen = project(frame, direction, lists[entry]);
+            let v = greatest_depth(seen, frame.enter, frame.leave);
+            bits |= u32(v > 0.0) << (entry - word_first);
+            most += seen.weight * kernel(v);
+        }
+        near[word] = bits;
+        count += countOneBits(bits);
     }
     return most * (1.0 + summing());
 }

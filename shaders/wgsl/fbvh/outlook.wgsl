@@ -8,6 +8,8 @@ const UNCLEAR: u32 = 0u;
 const BELOW: u32 = 1u;
 // The field reaches T once, and is above it at the end.
 const ONCE: u32 = 2u;
+// The field is above T at `high`: told only where any hit will do.
+const ABOVE: u32 = 3u;
 
 struct Outlook {
     outcome: u32,

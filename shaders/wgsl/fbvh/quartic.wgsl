@@ -10,8 +10,9 @@
 
 #import metaball::fbvh::local::{Frame, UNIT}
 #import metaball::fbvh::nearby::{ball_of, begin_walk, near_in, summing, words}
-#import metaball::fbvh::outlook::{Outlook, BELOW, ONCE, UNCLEAR}
+#import metaball::fbvh::outlook::{Outlook, ABOVE, BELOW, ONCE, UNCLEAR}
 #import metaball::fbvh::projection::{project, rim_share, Projection}
+#import metaball::ray::any_will_do
 #import metaball::scene::scene
 
 // So many looks at a leaf, before ranges are asked.
@@ -34,6 +35,8 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
     var most = vec4(0.0);
     var least = vec4(0.0);
     var last = 0.0;
+    // The last one of what is nowhere above it.
+    var least_last = 0.0;
     // How far rounding can move the field.
     var error = 0.0;
     // Whether all balls rise on the interval, and whether all cover it.
@@ -61,6 +64,7 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
             // Where both ends are in the support by so much, no coefficient has been raised.
             if 1.0 - farthest >= 2.0 * margin {
                 least += terms;
+                least_last += q * v.z * v.z;
             } else {
                 covered = false;
             }
@@ -78,10 +82,22 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
     if all(upper < vec4(0.0)) && upper_last < 0.0 {
         return Outlook(BELOW, low, high, high);
     }
+    let width = high - low;
+    // Where any hit will do, so does a place where the field is certainly above T: the interval's end, or
+    // one before it. There all terms are positive, and the quartic's own errs by less than a sum does.
+    if any_will_do() {
+        var above = select(0.0, 1.0, lower_last > 0.0);
+        for (var x = 0.25; x < 1.0; x += 0.25) {
+            let field = quartic(least, least_last, x) * (1.0 - 2.0 * doubt);
+            above = select(above, x, field > most_error + scene.threshold);
+        }
+        if above > 0.0 {
+            return Outlook(ABOVE, low, low + above * width, high);
+        }
+    }
     if upper.x >= 0.0 {
         return Outlook(UNCLEAR, low, high, high);
     }
-    let width = high - low;
     if lower_last > 0.0 && (rises || (covered && changes_once(upper, lower))) {
         return Outlook(ONCE, low, high, low + width * root_of(upper, upper_last));
     }

@@ -4,7 +4,7 @@
 //! of the ray as it was sent: a start on the wrong side would be seen as a ray that starts inside.
 
 use bench_scenes::{BenchScene, cases};
-use glam::Vec3;
+use glam::{Vec3, Vec3Swizzles};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{
     FrameStatus, FreeRay, Gpu, Question, RayBatch, RenderError, Targets, render_with,
@@ -67,6 +67,7 @@ pub(super) fn trials() -> Vec<Trial> {
         let crowd = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
         rays_from_anywhere(gpu, &crowd.scene(4096.0)?, 240)
     }));
+    trials.push(on_gpu("light::rays_that_graze".to_owned(), rays_that_graze));
     trials.push(on_gpu("light::frames_without_end_are_given_up".to_owned(), given_up));
     trials.push(on_gpu("light::canary::wrong_answers".to_owned(), rejects_wrong_answers));
     trials.push(on_gpu("light::canary::starts_on_the_surface".to_owned(), rejects_no_clearance));
@@ -239,25 +240,65 @@ fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), 
         })
         .collect();
 
-    let mut renderer = renderer(CERTIFIED)?;
-    renderer.build(gpu, scene)?;
-    let targets = Targets::new(gpu, view.width(), view.height(), false, false)?;
-    let batch = RayBatch::new(gpu, &targets)?;
-    batch.write_rays(gpu, &rays)?;
-    render_with(gpu, renderer.as_mut(), &targets, &view, |renderer, frame| {
-        let name = renderer.name();
-        let reason = "needed a tracer of any ray, found none".to_owned();
-        let none = RenderError::Unsupported { method: name, reason };
-        let tracer = renderer.ray_tracer().ok_or(none)?;
-        Question::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, &batch, ask))
-    })?;
-    let asked = answers(gpu, &batch)?;
+    let asked = ask(gpu, scene, &view, &rays)?;
     let exits = asked.iter().filter(|one| one.question == Question::Exit).count();
     let findings = judge(scene, &asked);
     if asked.len() != rays.len() || exits < 10 {
         return Err(format!("{} rays of {}, {exits} exits", asked.len(), rays.len()).into());
     }
     pass(&findings)
+}
+
+/// Rays past two balls that merge, closer and closer to where they would touch them, on both sides: there the
+/// field comes near T, or a little above, for a short way. One ball or both reach it.
+fn rays_that_graze(gpu: &Gpu) -> Result<(), Failed> {
+    let bench = load("two-merging")?;
+    let (scene, view) = (&bench.scene, view_of(&bench)?);
+    let oracle = Oracle::new(scene);
+    let bounds = scene.bounds();
+    let far = bounds.extent().length();
+    let grazing = |index: usize| {
+        let share = (index as f32 * Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5)).fract();
+        let through = bounds.center() + 0.4 * (share - 0.5) * bounds.extent();
+        let direction = ((share.zxy() * 8.0).fract() - 0.5).normalize_or(Vec3::X);
+        let across = direction.any_orthonormal_vector();
+        let beside = move |way: f32| Ray::new(through + way * across - far * direction, direction);
+        let (mut low, mut high) = (0.0, far);
+        for _ in 0..24 {
+            let middle = 0.5 * (low + high);
+            let is_hit = oracle.first_hit(&beside(middle)).verdict == Verdict::Hit;
+            (low, high) = if is_hit { (middle, high) } else { (low, middle) };
+        }
+        (0..16u8).map(move |step| {
+            let share = 10.0f32.powf(-1.0 - 0.5 * f32::from(step / 4));
+            let ray = beside(low * if step % 2 == 0 { 1.0 + share } else { 1.0 - share });
+            FreeRay::new(&ray, [Question::FirstHit, Question::AnyHit][usize::from(step / 2 % 2)])
+        })
+    };
+    let rays: Vec<_> = (0..400.min(view.pixels() / 16)).flat_map(grazing).collect();
+    let findings = judge(scene, &ask(gpu, scene, &view, &rays)?);
+    let clear = rays.len() - findings.ambiguous - findings.undecided;
+    if clear * 2 < rays.len() || findings.hits * 4 < clear || findings.hits * 4 > 3 * clear {
+        return Err(format!("{clear} of {} clear, {} hits", rays.len(), findings.hits).into());
+    }
+    pass(&findings)
+}
+
+/// Has the certified tree answer rays of the host's own.
+fn ask(gpu: &Gpu, scene: &Scene, view: &View, rays: &[FreeRay]) -> Result<Vec<Asked>, Failed> {
+    let mut renderer = renderer(CERTIFIED)?;
+    renderer.build(gpu, scene)?;
+    let targets = Targets::new(gpu, view.width(), view.height(), false, false)?;
+    let batch = RayBatch::new(gpu, &targets)?;
+    batch.write_rays(gpu, rays)?;
+    render_with(gpu, renderer.as_mut(), &targets, view, |renderer, frame| {
+        let name = renderer.name();
+        let reason = "needed a tracer of any ray, found none".to_owned();
+        let none = RenderError::Unsupported { method: name, reason };
+        let tracer = renderer.ray_tracer().ok_or(none)?;
+        Question::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, &batch, ask))
+    })?;
+    answers(gpu, &batch)
 }
 
 /// A frame of which some ray never says that it is finished ends as an error, after a few attempts.
