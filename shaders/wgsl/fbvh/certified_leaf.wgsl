@@ -76,14 +76,26 @@ fn excess_and_slopes(frame: Frame, direction: vec3<f32>, t: f32) -> vec3<f32> {
     begin_walk();
     var sum = vec2(-scene.threshold, 0.0);
     var bend = 0.0;
-    for (var word = 0u; word < words(); word++) {
-        for (var bits = near_in(word); bits != 0u; bits &= bits - 1u) {
-            let seen = project(frame, direction, ball_of(word, bits));
-            let along = t - seen.middle;
-            let v = 1.0 - rim_share(seen, along);
-            let share = seen.weight * seen.inverse_square;
-            sum += vec2(seen.weight * kernel(v), -2.0 * along * share * kernel_slope(v));
-            bend += share;
+    var word = 0u;
+    loop {
+        var bits = near_in(word);
+        loop {
+            if bits != 0u {
+                let seen = project(frame, direction, ball_of(word, bits));
+                let along = t - seen.middle;
+                let v = 1.0 - rim_share(seen, along);
+                let share = seen.weight * seen.inverse_square;
+                sum += vec2(seen.weight * kernel(v), -2.0 * along * share * kernel_slope(v));
+                bend += share;
+            }
+            bits &= bits - 1u;
+            if bits == 0u {
+                break;
+            }
+        }
+        word++;
+        if word >= words() {
+            break;
         }
     }
     return vec3(SIGN * sum, bend * greatest_bend());

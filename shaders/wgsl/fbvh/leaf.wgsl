@@ -93,14 +93,26 @@ fn field_above(ray: Ray, first: u32, end: u32, t: f32) -> f32 {
     count_evaluations(end - first);
     var sum = 0.0;
     var entry = first;
-    for (; entry + 4u <= end; entry += 4u) {
-        sum += contribution_at(lists[entry], ray, t)
-            + contribution_at(lists[entry + 1u], ray, t)
-            + contribution_at(lists[entry + 2u], ray, t)
-            + contribution_at(lists[entry + 3u], ray, t);
+    if entry + 4u <= end {
+        loop {
+            sum += contribution_at(lists[entry], ray, t)
+                + contribution_at(lists[entry + 1u], ray, t)
+                + contribution_at(lists[entry + 2u], ray, t)
+                + contribution_at(lists[entry + 3u], ray, t);
+            entry += 4u;
+            if entry + 4u > end {
+                break;
+            }
+        }
     }
-    for (; entry < end; entry++) {
-        sum += contribution_at(lists[entry], ray, t);
+    if entry < end {
+        loop {
+            sum += contribution_at(lists[entry], ray, t);
+            entry++;
+            if entry >= end {
+                break;
+            }
+        }
     }
     spent += walk_along(first, end);
     return sum - scene.threshold;

@@ -35,18 +35,28 @@ fn gather(frame: Frame, direction: vec3<f32>, list_first: u32, list_end: u32) ->
     spent += walk_length();
     count = 0u;
     var most = 0.0;
-    for (var word = 0u; word < words(); word++) {
+    var word = 0u;
+    loop {
         let word_first = first + 32u * word;
         let word_end = min(word_first + 32u, end);
         var bits = 0u;
-        for (var entry = word_first; entry < word_end; entry++) {
+        var entry = word_first;
+        loop {
             let seen = project(frame, direction, lists[entry]);
             let v = greatest_depth(seen, frame.enter, frame.leave);
             bits |= u32(v > 0.0) << (entry - word_first);
             most += seen.weight * kernel(v);
+            entry++;
+            if entry >= word_end {
+                break;
+            }
         }
         near[word] = bits;
         count += countOneBits(bits);
+        word++;
+        if word >= words() {
+            break;
+        }
     }
     return most * (1.0 + summing());
 }

@@ -42,8 +42,10 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
     // Whether all balls rise on the interval, and whether all cover it.
     var rises = true;
     var covered = true;
-    for (var word = 0u; word < words(); word++) {
-        for (var bits = near_in(word); bits != 0u; bits &= bits - 1u) {
+    var word = 0u;
+    loop {
+        var bits = near_in(word);
+        loop {
             let seen = project(frame, direction, ball_of(word, bits));
             let to_start = low - seen.middle;
             let to_end = high - seen.middle;
@@ -51,24 +53,31 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
             let s = (seen.off_square + along) * seen.inverse_square;
             let farthest = max(s.x, s.z);
             let margin = coefficient_margin(seen, farthest);
-            if 1.0 - rim_share(seen, clamp(seen.middle, low, high) - seen.middle) + margin <= 0.0 {
-                continue;
+            if bits != 0u && 1.0 - rim_share(seen, clamp(seen.middle, low, high) - seen.middle) + margin > 0.0 {
+                let v = max(1.0 - s, vec3(0.0));
+                let q = seen.weight;
+                let terms =
+                    q * vec4(v.x * v.x, v.x * v.y, (2.0 * v.y * v.y + v.x * v.z) * (1.0 / 3.0), v.y * v.z);
+                most += terms;
+                last += q * v.z * v.z;
+                error += 2.0 * q * margin * (max(v.x, max(v.y, v.z)) + margin);
+                // Where both ends are in the support by so much, no coefficient has been raised.
+                if 1.0 - farthest >= 2.0 * margin {
+                    least += terms;
+                    least_last += q * v.z * v.z;
+                } else {
+                    covered = false;
+                }
+                rises = rises && to_end < -seen.misplaced;
             }
-            let v = max(1.0 - s, vec3(0.0));
-            let q = seen.weight;
-            let terms =
-                q * vec4(v.x * v.x, v.x * v.y, (2.0 * v.y * v.y + v.x * v.z) * (1.0 / 3.0), v.y * v.z);
-            most += terms;
-            last += q * v.z * v.z;
-            error += 2.0 * q * margin * (max(v.x, max(v.y, v.z)) + margin);
-            // Where both ends are in the support by so much, no coefficient has been raised.
-            if 1.0 - farthest >= 2.0 * margin {
-                least += terms;
-                least_last += q * v.z * v.z;
-            } else {
-                covered = false;
+            bits &= bits - 1u;
+            if bits == 0u {
+                break;
             }
-            rises = rises && to_end < -seen.misplaced;
+        }
+        word++;
+        if word >= words() {
+            break;
         }
     }
     // How far the sums may err, of themselves: their terms are products of products.

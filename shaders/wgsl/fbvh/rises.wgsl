@@ -32,25 +32,34 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
     var start = vec2(0.0);
     var stop = vec2(0.0);
     var radius = 1e38;
-    for (var word = 0u; word < words(); word++) {
-        for (var bits = near_in(word); bits != 0u; bits &= bits - 1u) {
+    var word = 0u;
+    loop {
+        var bits = near_in(word);
+        loop {
             let seen = project(frame, direction, ball_of(word, bits));
             let v = depths_on(seen, low, high);
-            if v.most <= 0.0 {
-                continue;
+            if bits != 0u && v.most > 0.0 {
+                let q = seen.weight;
+                most += q * kernel(v.most);
+                end_least += q * kernel(v.end - v.end_margin);
+                end_most += q * kernel(v.end + v.end_margin);
+                // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: least at the interval's end.
+                let to_start = low - seen.middle;
+                let to_end = high - seen.middle;
+                let steep = 2.0 * q * seen.inverse_square;
+                least_slope += steep * least_product(seen, v, -to_end, doubt);
+                start += vec2(q * kernel(v.start), -steep * to_start * kernel_slope(v.start));
+                stop += vec2(q * kernel(v.end), -steep * to_end * kernel_slope(v.end));
+                radius = min(radius, seen.radius);
             }
-            let q = seen.weight;
-            most += q * kernel(v.most);
-            end_least += q * kernel(v.end - v.end_margin);
-            end_most += q * kernel(v.end + v.end_margin);
-            // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: least at the interval's end.
-            let to_start = low - seen.middle;
-            let to_end = high - seen.middle;
-            let steep = 2.0 * q * seen.inverse_square;
-            least_slope += steep * least_product(seen, v, -to_end, doubt);
-            start += vec2(q * kernel(v.start), -steep * to_start * kernel_slope(v.start));
-            stop += vec2(q * kernel(v.end), -steep * to_end * kernel_slope(v.end));
-            radius = min(radius, seen.radius);
+            bits &= bits - 1u;
+            if bits == 0u {
+                break;
+            }
+        }
+        word++;
+        if word >= words() {
+            break;
         }
     }
     let threshold = scene.threshold;

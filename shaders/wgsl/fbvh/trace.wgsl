@@ -199,7 +199,8 @@ fn write(pixel: u32, ray: Ray) {
     blend_start();
     let found = structure::leaves[best_leaf];
     let end = structure::leaves[best_leaf + 1u].first;
-    for (var entry = found.first; entry < end; entry++) {
+    var entry = found.first;
+    loop {
         let ball = structure::lists[entry];
         let support = support_of(ball);
         let offset = offset_at(ray.origin - support.center, ray.direction, best_t);
@@ -210,6 +211,10 @@ fn write(pixel: u32, ray: Ray) {
             let moved = leaf::depth_error(found, ray, best_t, offset, support.radius);
             doubt += strength(ball) * kernel_slope(v) * moved;
             smallest = min(smallest, support.radius);
+        }
+        entry++;
+        if entry >= end {
+            break;
         }
     }
     blend_write(pixel);

@@ -263,11 +263,14 @@ fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
     var bounds = Bounds(0.0, 0.0, 0.0, 0.0, 0.0, 1e38, 0u, false);
     let end = window_end();
     var place = state.first;
-    while place < end {
+    loop {
         place = bound_ball(place, end, direction, low, high, &bounds);
         place = bound_ball(place, end, direction, low, high, &bounds);
         place = bound_ball(place, end, direction, low, high, &bounds);
         place = bound_ball(place, end, direction, low, high, &bounds);
+        if place >= end {
+            break;
+        }
     }
     let balls = bounds.balls;
     count_balls(balls);
@@ -346,12 +349,15 @@ fn field_and_slope(direction: vec3<f32>, t: f32) -> vec2<f32> {
     let end = window_end();
     var place = state.first;
     var walked = 1u;
-    while place < end {
+    loop {
         place = add_field(place, end, direction, t, &sum);
         place = add_field(place, end, direction, t, &sum);
         place = add_field(place, end, direction, t, &sum);
         place = add_field(place, end, direction, t, &sum);
         walked++;
+        if place >= end {
+            break;
+        }
     }
     count_evaluations(4u * (walked - 1u));
     spent += walked;
@@ -398,11 +404,14 @@ fn surface(pixel: u32, ray: Ray, t: f32, status: u32) {
     blend_start();
     let end = window_end();
     var place = state.first;
-    while place < end {
+    loop {
         place = add_slope(place, end, ray.direction, t, &slope);
         place = add_slope(place, end, ray.direction, t, &slope);
         place = add_slope(place, end, ray.direction, t, &slope);
         place = add_slope(place, end, ray.direction, t, &slope);
+        if place >= end {
+            break;
+        }
     }
     blend_write(pixel);
     // Where the field is flat, as at a lone centre, the surface faces the ray.
