@@ -35,10 +35,15 @@ fn seeks_way_out() -> bool {
 const MISSED: u32 = 0u;
 const FOUND: u32 = 1u;
 const WAITING: u32 = 2u;
-// Nothing, but the excess came so close to 0 at the leaf's far side that only a hit beyond can tell.
+// Nothing, but the excess came so close to 0 at the ray's end that it may have reached it.
 const DOUBTED: u32 = 3u;
 // One root is between the ends of a bracket: `close_in` finds it.
 const BRACKETED: u32 = 4u;
+// The ray does not come through the leaf's box.
+const UNMET: u32 = 5u;
+// Nothing, but on the way out the excess came so close to 0 at the leaf's far face that it reaches it there,
+// unless another leaf begins where this one ends: in no leaf the field is below T. `search.high` says where.
+const LEAVING: u32 = 6u;
 
 // Stages of a search: on the way through the leaf, or between the ends of a bracket.
 const ENTER: u32 = 0u;
@@ -128,7 +133,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     }
     if search.stage == ENTER {
         if frame.enter > frame.leave {
-            return MISSED;
+            return UNMET;
         }
         count_leaf_test();
         // A leaf without a list is solid. Its faces lie inside the surface: a ray that comes to it and is in it
@@ -210,9 +215,9 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
             search.stage = SOLVE;
             search.high_value = probe + width * cubic_root(bounds.start, bounds.end, width);
         } else if is_below || rises {
-            // All below 0; or rising so close to 0 that the next interval must tell.
+            // All below 0; or rising so close to 0 that what comes next must tell.
             if search.high >= frame.leave {
-                return select(DOUBTED, MISSED, is_below);
+                return far_end(frame, ray, is_below);
             }
             search.low = select(search.low, search.high, is_below);
             search.low_value = search.high;
@@ -228,6 +233,39 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     }
 
     return BRACKETED;
+}
+
+// What a search has come to that found no root up to where the ray leaves the leaf or ends.
+//
+// On the way in, what rises so close to 0 at a face is told by what lies behind: another leaf, which begins
+// there, or none; then the field is below T at the face, and since it rose to there, before it, too.
+fn far_end(frame: Frame, ray: Ray, is_below: bool) -> u32 {
+    let leaves_at = at(frame, frame.leave) * (1.0 + 8.0 * UNIT);
+    if is_below {
+        return MISSED;
+    }
+    if frame.ends || leaves_at >= ray.t_max {
+        return DOUBTED;
+    }
+    if !seeks_way_out() {
+        return MISSED;
+    }
+    search.high = leaves_at;
+    return LEAVING;
+}
+
+// Takes up a leaf again of which it has turned out that the ray leaves the solid in it, at its far face if
+// nowhere before. Returns whether there was room for the walk along its list.
+fn take_up_way_out(ray: Ray, inverse: vec3<f32>, index: u32) -> bool {
+    let leaf = leaves[index];
+    let frame = local_frame(ray, inverse, leaf.min, leaf.max);
+    search = Search(SOLVE, 0u, frame.enter, frame.enter, frame.leave, frame.leave, 0u);
+    let end = leaves[index + 1u].first;
+    if !can_walk(end - leaf.first + WORDS + 1u) {
+        return false;
+    }
+    gather(frame, ray.direction, leaf.first, end);
+    return true;
 }
 
 // Whether a root is still to be closed in on.

@@ -42,12 +42,18 @@ fn status_found() -> u32 {
 const MISSED: u32 = 0u;
 const FOUND: u32 = 1u;
 const WAITING: u32 = 2u;
-// Certified searches alone have doubts, and leave closing in on a root for later.
+// Certified searches alone have doubts, leave closing in on a root for later, and look for the way out.
 const DOUBTED: u32 = 3u;
 const BRACKETED: u32 = 4u;
+const UNMET: u32 = 5u;
+const LEAVING: u32 = 6u;
 
 fn is_bracketed() -> bool {
     return false;
+}
+
+fn take_up_way_out(ray: Ray, inverse: vec3<f32>, index: u32) -> bool {
+    return true;
 }
 
 fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {

@@ -25,6 +25,8 @@ struct Frame {
     starts: bool,
     // Whether it certainly does.
     starts_within: bool,
+    // Whether the ray itself ends before it leaves the box.
+    ends: bool,
     // How far rounding can misplace `origin`.
     misplaced: f32,
     // How far past the box's faces the stretch reaches: what rounding may do to a point of the ray.
@@ -78,12 +80,13 @@ fn local_frame(ray: Ray, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>) ->
     let enter = max(max(near.x, near.y), near.z);
     let leave = min(min(far.x, far.y), far.z);
     let start = -base_high - base_low;
-    let last = min(leave, (ray.t_max - base_high) - base_low);
+    let limit = (ray.t_max - base_high) - base_low;
+    let last = min(leave, limit);
 
     let misplaced = UNIT * (4.0 * length(origin) + 2.0 * length(middling));
     return Frame(
         center, origin, base_high, base_low,
-        max(enter, start), last, enter <= start && start <= last, starts_within,
+        max(enter, start), last, enter <= start && start <= last, starts_within, limit <= leave,
         misplaced, slack,
     );
 }

@@ -27,7 +27,8 @@ var<private> enters: array<f32, MAX_DEPTH>;
 var<private> depth: u32;
 
 // The nearest hit so far. Where there is none, `best_status` is MISS, or UNDECIDED if a leaf had
-// doubts, and `best_t` the ray's end.
+// doubts, and `best_t` the ray's end; but on the way out, once a leaf is LEAVING, where that is: what the ray
+// enters behind it cannot be what lets it stay.
 var<private> best_t: f32;
 var<private> best_leaf: u32;
 var<private> best_status: u32;
@@ -74,6 +75,12 @@ fn descend(place: u32, ray: Ray, inverse: vec3<f32>) {
     }
 }
 
+// Where the ray passes through a leaf; asked on the way out alone.
+fn passage(index: u32, ray: Ray, inverse: vec3<f32>) -> structure::Stretch {
+    let box = structure::leaves[index];
+    return structure::through_box(box.min, box.max, ray, inverse);
+}
+
 // Visits places from `start` on until the ray is done. Returns the place to wait at, EMPTY when the
 // ray is finished.
 fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
@@ -102,9 +109,21 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
         }
         suspend::spent++;
         let index = place & ~structure::LEAF;
+        if leaf::seeks_way_out() && passage(index, ray, inverse).enter >= best_t {
+            place = pop();
+            continue;
+        }
         let outcome = leaf::search_leaf(ray, inverse, index);
         if outcome == leaf::WAITING {
             return place;
+        }
+        // On the way out, a leaf that goes on behind the end of another tells what that left open.
+        if leaf::seeks_way_out() && outcome != leaf::UNMET && passage(index, ray, inverse).leave > best_t {
+            best_t = ray.t_max;
+        }
+        if outcome == leaf::LEAVING {
+            best_t = leaf::search.high;
+            best_leaf = index;
         }
         if outcome == leaf::BRACKETED {
             best_leaf = index;
@@ -131,8 +150,14 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
 // Follows the ray from `start` to its answer. Returns the place to wait at, EMPTY when it is finished.
 fn follow(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
     let place = traverse(start, ray, inverse);
-    if place != structure::EMPTY || !leaf::is_bracketed() {
+    if place != structure::EMPTY {
         return place;
+    }
+    if is_leaving(ray) && !leaf::take_up_way_out(ray, inverse, best_leaf) {
+        return structure::LEAF | best_leaf;
+    }
+    if !leaf::is_bracketed() {
+        return structure::EMPTY;
     }
     if leaf::close_in(ray, inverse, best_leaf) == leaf::WAITING {
         return structure::LEAF | best_leaf;
@@ -142,6 +167,11 @@ fn follow(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
         best_status = leaf::status_found();
     }
     return structure::EMPTY;
+}
+
+// Whether the ray has left the solid at the end of a leaf: none begins there.
+fn is_leaving(ray: Ray) -> bool {
+    return leaf::seeks_way_out() && !leaf::is_bracketed() && best_status == hit::MISS && best_t < ray.t_max;
 }
 
 // Whether a point is in the box of a leaf, faces included. Where it is in none, the field is below T.

@@ -10,7 +10,7 @@ use metaball_core::gpu::{
     FrameStatus, FreeRay, Gpu, Question, RayBatch, RenderError, Targets, render_with,
 };
 use metaball_core::reference::Oracle;
-use metaball_core::{Hit, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
+use metaball_core::{Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
 use metaball_light::{Effects, Environment, Floor, Lamp, Occlusion, Studio, Surface};
 
 use super::{load, on_gpu, renderer, view_of};
@@ -68,6 +68,7 @@ pub(super) fn trials() -> Vec<Trial> {
         rays_from_anywhere(gpu, &crowd.scene(4096.0)?, 240)
     }));
     trials.push(on_gpu("light::rays_that_graze".to_owned(), rays_that_graze));
+    trials.push(on_gpu("light::ways_out_at_faces_of_boxes".to_owned(), ways_out_at_faces_of_boxes));
     trials.push(on_gpu("light::frames_without_end_are_given_up".to_owned(), given_up));
     trials.push(on_gpu("light::canary::wrong_answers".to_owned(), rejects_wrong_answers));
     trials.push(on_gpu("light::canary::starts_on_the_surface".to_owned(), rejects_no_clearance));
@@ -282,6 +283,44 @@ fn rays_that_graze(gpu: &Gpu) -> Result<(), Failed> {
         return Err(format!("{clear} of {} clear, {} hits", rays.len(), findings.hits).into());
     }
     pass(&findings)
+}
+
+/// Rays out of lone balls in rows, to close beside where they touch their boxes: there the field is as good
+/// as T at the box's face, and behind it is no box, or that of the next ball, which must not be taken for where
+/// the ray comes out.
+fn ways_out_at_faces_of_boxes(gpu: &Gpu) -> Result<(), Failed> {
+    let view = view_of(&load("two-merging")?)?;
+    for threshold in [0.25f32, 0.999, 0.9999] {
+        let reach = (1.0 - threshold.sqrt()).sqrt();
+        let apart = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].map(|axis| 40.0 * axis);
+        let balls = apart.iter().flat_map(|&place| [place, -place]).skip(1);
+        let scene =
+            Scene::new(balls.map(|place| Metaball::new(place, 1.0)), Kernel::QUARTIC, threshold)?;
+        let from_beneath = |index: usize| {
+            let share = (index as f32 * Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5)).fract();
+            let axis = [Vec3::X, Vec3::Y, Vec3::Z][index % 3] * [1.0, -1.0][index / 3 % 2];
+            // Closer and closer to the middle of the face, from all over the ball.
+            let aside =
+                10.0f32.powf(-1.0 - 3.0 * share.y) * (share.zxy() - 0.5) * (1.0 - axis.abs());
+            // One in four goes on to the next ball of the row.
+            let beside = if index.is_multiple_of(4) {
+                aside
+            } else {
+                (share.yzx() - 0.5) * (1.0 - axis.abs())
+            };
+            let origin = reach * ((share.x - 0.5) * axis + beside);
+            let direction = (reach * (axis + aside) - origin).normalize();
+            FreeRay::new(&Ray::new(origin, direction), Question::Exit)
+        };
+        let rays: Vec<_> = (0..view.pixels().min(3000)).map(from_beneath).collect();
+        let findings = judge(&scene, &ask(gpu, &scene, &view, &rays)?);
+        pass(&findings)?;
+        if findings.undecided * 500 > rays.len() {
+            let undecided = findings.undecided;
+            return Err(format!("T {threshold}: {undecided} of {} undecided", rays.len()).into());
+        }
+    }
+    Ok(())
 }
 
 /// Has the certified tree answer rays of the host's own.

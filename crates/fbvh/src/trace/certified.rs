@@ -23,6 +23,13 @@
 //! # Rays that start inside
 //! A box above T throughout and a box dropped never touch but where the field is T, so a ray that
 //! starts inside leaves the solid in a leaf with a list: solid leaves are passed through.
+//!
+//! # Where leaves end
+//! Boxes are cut down to where balls can make a surface, so a surface often touches a face with nothing
+//! behind it: a lone ball six of them. There the field may be too close to T to tell at the ray's end of
+//! the leaf, but in no leaf it is below T. So on the way in a field that rises to such a face has not
+//! reached T; on the way out it falls to T at the face, if nowhere before. Only where a leaf goes on
+//! behind the face that one has to tell.
 
 use glam::DVec3;
 use metaball_core::{Aabb, Hit, Ray, Verdict};
@@ -72,14 +79,24 @@ pub(super) struct Journey<'a> {
     ray: &'a Ray,
     origin: DVec3,
     inverse: DVec3,
-    /// Whether a leaf on the way could not tell.
+    /// Whether the field comes so close to T at the ray's end that it may have crossed it.
     pub(super) doubt: bool,
+    /// On the way out: where the ray leaves the solid if no leaf begins there.
+    leaving: Option<Leaving>,
+}
+
+/// The far face of a leaf at which the field comes as close to T as rounding tells. Space in no leaf is below
+/// T, so that is the way out, unless another leaf begins there. On the way in there is nothing to note: the
+/// field that rises to a face with no leaf behind it is below T before it, too.
+struct Leaving {
+    leaf: usize,
+    t: f64,
 }
 
 impl<'a> Journey<'a> {
     pub(super) fn new(ray: &'a Ray) -> Self {
         let inverse = ray.direction.as_dvec3().recip();
-        Self { ray, origin: ray.origin.as_dvec3(), inverse, doubt: false }
+        Self { ray, origin: ray.origin.as_dvec3(), inverse, doubt: false, leaving: None }
     }
 
     /// Where the ray is in a box, widened by rounding; `None` where it is not. A ray in the plane of
@@ -99,8 +116,8 @@ impl<'a> Journey<'a> {
         (start <= end).then_some((start, end))
     }
 
-    /// What a ray has come to that met no crossing.
-    pub(super) fn end(&self) -> Hit {
+    /// What a ray has come to that met no crossing, nor is leaving.
+    fn end(&self) -> Hit {
         if self.doubt { Hit { verdict: Verdict::Undecided, ..Hit::MISS } } else { Hit::MISS }
     }
 }
@@ -119,7 +136,7 @@ impl<F: Field> Tracer<'_, F> {
         let hit = self.first_in_order(ray, counter, |leaf, _, counter| {
             self.visit(question, leaf, &mut journey, scratch, counter)
         });
-        hit.unwrap_or_else(|| journey.end())
+        hit.or_else(|| self.way_out(&journey)).unwrap_or_else(|| journey.end())
     }
 
     /// The same in a part of the tree whose box the ray meets; `None` when the ray goes on.
@@ -153,6 +170,15 @@ impl<F: Field> Tracer<'_, F> {
         let ray = journey.ray;
         let bounds = self.tree.leaves[leaf].bounds();
         let stretch = journey.stretch(&bounds)?;
+        // A leaf that goes on behind the end of another tells what that left open, if it begins before it.
+        if let Some(leaving) = &journey.leaving {
+            if stretch.0 > leaving.t {
+                return self.way_out(journey);
+            }
+            if stretch.1 > leaving.t {
+                journey.leaving = None;
+            }
+        }
         let list = self.list(leaf);
         counter.leaf_test(list.len());
         // A leaf without a list is solid, to farther past its faces than rounding reaches.
@@ -206,7 +232,10 @@ impl<F: Field> Tracer<'_, F> {
         let (verdict, t) = match search.first_root(stretch, counter) {
             Found::Nothing => return None,
             Found::Doubt => {
-                journey.doubt = true;
+                journey.doubt = stretch.1 >= f64::from(ray.t_max);
+                if crossing == Crossing::Out && !journey.doubt {
+                    journey.leaving = Some(Leaving { leaf, t: stretch.1 });
+                }
                 return None;
             }
             Found::Start => return Some(self.at_start(leaf, ray)),
@@ -214,6 +243,15 @@ impl<F: Field> Tracer<'_, F> {
             Found::TooClose(t) => (Verdict::Undecided, t as f32),
         };
         Some(Hit { verdict, fallback: false, t, normal: self.normal(leaf, ray, t) })
+    }
+
+    /// Where the ray is leaving, if it is.
+    fn way_out(&self, journey: &Journey<'_>) -> Option<Hit> {
+        journey.leaving.as_ref().map(|&Leaving { leaf, t }| {
+            let t = t as f32;
+            let normal = self.normal(leaf, journey.ray, t);
+            Hit { verdict: Verdict::Hit, fallback: false, t, normal }
+        })
     }
 
     /// Beyond the crossing from the start.

@@ -51,7 +51,7 @@ struct Chord {
 pub(super) enum Found {
     /// No crossing in the leaf.
     Nothing,
-    /// The same, but so close to T at the far side that only a crossing beyond can tell.
+    /// The same, but so close to T at the far side that what comes next must tell.
     Doubt,
     /// The ray starts beyond the crossing.
     Start,
