@@ -62,6 +62,8 @@ pub(crate) fn build(field: &impl Field, options: &Options) -> Result<Tree, Build
         kernel: field.kernel(),
         threshold: field.threshold(),
         max_depth: options.max_depth.min(MAX_DEPTH),
+        radius: common(&balls, Ball::radius),
+        strength: common(&balls, |ball| ball.strength),
         options: *options,
     };
     let mut branch = Branch::new();
@@ -88,11 +90,21 @@ fn copy(field: &impl Field) -> Result<Vec<Ball>, SceneError> {
     Ok((0..count).into_par_iter().map(copied).collect())
 }
 
+/// What is the same of all balls.
+fn common(balls: &[Ball], value: impl Fn(&Ball) -> f32) -> Option<f32> {
+    let first = value(balls.first()?);
+    balls.iter().all(|ball| value(ball) == first).then_some(first)
+}
+
 /// What the divisions of all nodes have in common.
 struct Builder {
     kernel: Kernel,
     threshold: f32,
     max_depth: usize,
+    /// The radius of all balls, where they have one.
+    radius: Option<f32>,
+    /// Their strength, likewise.
+    strength: Option<f32>,
     options: Options,
 }
 

@@ -28,16 +28,22 @@ impl Reach {
         let (strength, radius) = balls.iter().fold((0.0f64, 0.0f32), |(strength, radius), ball| {
             (strength + f64::from(ball.strength), radius.max(ball.radius()))
         });
+        let per_ball = Self::per_ball(kernel, threshold, strength)?;
+        Some(match boxes {
+            Boxes::PerBall => per_ball,
+            _ => Self { limit: radius * per_ball.factor, ..Self::SUPPORT },
+        })
+    }
+
+    /// [`Boxes::PerBall`] of balls whose strengths have this sum.
+    pub(crate) fn per_ball(kernel: Kernel, threshold: f32, strength: f64) -> Option<Self> {
         let share = f64::from(threshold) / strength;
         if share >= 1.0 {
             return None;
         }
         // Rounded up by more than the inverse kernel (1e-15) and the products (6e-8) can be off.
         let factor = (kernel.ratio_at(share).unwrap_or(1.0) * (1.0 + 4e-7)).min(1.0) as f32;
-        Some(match boxes {
-            Boxes::PerBall => Self { factor, ..Self::SUPPORT },
-            _ => Self { limit: radius * factor, ..Self::SUPPORT },
-        })
+        Some(Self { factor, ..Self::SUPPORT })
     }
 
     /// The radius around a ball.

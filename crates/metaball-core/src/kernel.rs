@@ -140,9 +140,11 @@ impl Kernel {
             return None;
         }
         let v = match self {
+            Self::QUARTIC => value.sqrt(),
             Self::Power(exponent) => value.powf(f64::from(exponent.0).recip()),
-            // Both are increasing in v on [0, 1].
-            Self::Wyvill | Self::Perlin => bisect(|v| self.value(1.0 - v) - value),
+            Self::Wyvill => wyvill_depth(value),
+            // Increasing in v on [0, 1].
+            Self::Perlin => bisect(|v| self.value(1.0 - v) - value),
         };
         Some((1.0 - v).max(0.0).sqrt())
     }
@@ -201,6 +203,22 @@ fn power(v: f32, exponent: u8) -> f32 {
         product *= fourth * fourth;
     }
     product
+}
+
+/// Where v²(5 + 4v)/9 is a value from 0 to 1. It is convex and at least 5v²/9, so Newton's steps from there
+/// come down to the root without passing it.
+fn wyvill_depth(value: f64) -> f64 {
+    let mut depth = (1.8 * value).sqrt().min(1.0);
+    while depth > 0.0 {
+        let excess = depth * depth * (5.0 + 4.0 * depth) - 9.0 * value;
+        let next = depth - excess / (depth * (10.0 + 12.0 * depth));
+        // Rounding alone lifts a step, or keeps it where it is.
+        if next >= depth {
+            break;
+        }
+        depth = next;
+    }
+    depth
 }
 
 /// The root in \[0, 1\] of an increasing function, to the last float.

@@ -7,7 +7,8 @@
 //!
 //! Sums of either kind end as soon as they are above T. So what is certainly solid, and what is
 //! certainly not empty, is told from a few balls; and balls that do not hold the whole box, most of
-//! them in all but the smallest boxes, add nothing to the least and are passed by in f32.
+//! them in all but the smallest boxes, add nothing to the least. Boxes that are neither, which are only
+//! divided further, need no certainty: f32 tells most of them, and f64 is asked where it tells of more.
 
 use glam::{DVec3, Vec3, Vec3A};
 use metaball_core::Aabb;
@@ -15,7 +16,7 @@ use metaball_core::Aabb;
 use super::{Builder, Division, Halves, Part, divide};
 use crate::ball::Ball;
 use crate::fit::{Reach, keep_reaching};
-use crate::options::{Boxes, Classes, Cost};
+use crate::options::{Classes, Cost};
 use crate::plane::{Plane, centers_of, cut, cut_space, face, longest_axis};
 
 /// Sums of n ≤ 2³² non-negative f64 terms of a few products each err by less than this share.
@@ -66,13 +67,14 @@ impl Builder {
         if self.is_empty(list, &part.bounds) {
             return Division::Nothing;
         }
-        let plane = match self.classified_plane(classes, list, part) {
+        let radii = self.radii(list);
+        let plane = match self.classified_plane(classes, list, part, radii) {
             Some(plane) if part.depth < self.max_depth => plane,
             _ => return Division::Leaf(part.list.clone()),
         };
         let side = part.bounds.extent().max_element();
         let face = widened(&face(&part.bounds, &plane), side);
-        let is_wide = side > WIDEST * radii(&pool[part.list.clone()]).0;
+        let is_wide = side > WIDEST * radii.0;
         let (left, right) = divide(pool, &part.list, &plane, &face);
         let tells_nothing = left.len().min(right.len()) == part.list.len();
         if tells_nothing && !is_wide && is_pile(&pool[part.list.clone()]) {
@@ -98,7 +100,11 @@ impl Builder {
         if self.is_solid(list, &widened(&part.bounds, part.bounds.extent().max_element())) {
             return Some(Part { list: part.list.start..part.list.start, ..*part });
         }
-        let reach = Reach::of(Boxes::PerBall, self.kernel, self.threshold, list)?;
+        let strength = match self.strength {
+            Some(strength) => f64::from(strength) * list.len() as f64,
+            None => list.iter().map(|ball| f64::from(ball.strength)).sum(),
+        };
+        let reach = Reach::per_ball(self.kernel, self.threshold, strength)?;
         let bounds = reach.clip(list, &part.bounds);
         if bounds.is_empty() {
             return None;
@@ -112,10 +118,15 @@ impl Builder {
     }
 
     /// The plane to cut the node at; `None` where it had better be a leaf.
-    fn classified_plane(&self, classes: &Classes, list: &[Ball], part: &Part) -> Option<Plane> {
+    fn classified_plane(
+        &self,
+        classes: &Classes,
+        list: &[Ball],
+        part: &Part,
+        (least, largest): (f32, f32),
+    ) -> Option<Plane> {
         let axis = longest_axis(&part.bounds);
         let side = part.bounds.extent()[axis];
-        let (least, largest) = radii(list);
         let filled = list.len() as f32 / classes.leaf_size.max(1) as f32;
         let smallest = classes.smallest_side / if filled > LONG { filled.cbrt() } else { 1.0 };
         let is_short = |radius: f32| side < smallest * radius;
@@ -152,6 +163,16 @@ impl Builder {
 
     /// Whether the field is certainly at T or below in the whole box.
     fn is_empty(&self, list: &[Ball], bounds: &Aabb) -> bool {
+        let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+        let mut most = 0.0;
+        let is_reached = list.iter().any(|ball| {
+            let center = ball.center();
+            most += self.near_part_at(ball, center - center.clamp(near_low, near_high));
+            most > self.threshold
+        });
+        if is_reached {
+            return false;
+        }
         let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let threshold = f64::from(self.threshold) * (1.0 - ROUNDING);
         let mut most = 0.0;
@@ -164,20 +185,37 @@ impl Builder {
 
     /// Whether the field is certainly above T in the whole box.
     fn is_solid(&self, list: &[Ball], bounds: &Aabb) -> bool {
-        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        // A ball that adds anything everywhere holds the box.
+        if self.radius.is_some_and(|radius| bounds.extent().length() > 2.0 * radius) {
+            return false;
+        }
         let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
-        let threshold = f64::from(self.threshold) * (1.0 + ROUNDING);
-        let mut least = 0.0;
-        list.iter().any(|ball| {
+        let mut near_least = 0.0;
+        let may_be = list.iter().any(|ball| {
             let center = ball.center();
             let farthest = (center - near_low).max(near_high - center);
             if farthest.length_squared() >= ball.radius() * ball.radius() {
                 return false;
             }
-            let center = center.as_dvec3();
+            near_least += self.near_part_at(ball, farthest);
+            near_least > self.threshold
+        });
+        if !may_be {
+            return false;
+        }
+        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let threshold = f64::from(self.threshold) * (1.0 + ROUNDING);
+        let mut least = 0.0;
+        list.iter().any(|ball| {
+            let center = ball.center().as_dvec3();
             least += self.part_at(ball, (center - low).max(high - center));
             least > threshold
         })
+    }
+
+    /// The least and the largest radius of a list.
+    fn radii(&self, list: &[Ball]) -> (f32, f32) {
+        self.radius.map_or_else(|| radii(list), |radius| (radius, radius))
     }
 
     /// Mean radius of the balls, each weighted by the most that it adds in the box.
@@ -191,6 +229,14 @@ impl Builder {
             (sum + weight * radius, weights + weight)
         });
         sum / weights.max(f32::MIN_POSITIVE)
+    }
+
+    /// The same in f32: for what is made certain by [`Builder::part_at`], or need not be.
+    #[inline]
+    fn near_part_at(&self, ball: &Ball, offset: Vec3A) -> f32 {
+        let radius = ball.radius();
+        let depth = 1.0 - offset.length_squared() / (radius * radius);
+        ball.strength * self.kernel.value_at_depth(depth)
     }
 
     /// What a ball adds to the field at an offset from its centre.
@@ -227,6 +273,7 @@ mod tests {
 
     use super::*;
     use crate::Options;
+    use crate::build::common;
 
     /// A box among balls of radii that differ by up to 10,000. Coordinates are few, so that faces go
     /// through centres, rims and each other.
@@ -298,8 +345,14 @@ mod tests {
                 if threshold <= 0.0 {
                     continue;
                 }
-                let options = Options::certified();
-                let builder = Builder { kernel, threshold, max_depth: 64, options };
+                let builder = Builder {
+                    kernel,
+                    threshold,
+                    max_depth: 64,
+                    radius: common(&balls, Ball::radius),
+                    strength: common(&balls, |ball| ball.strength),
+                    options: Options::certified(),
+                };
                 let threshold = f64::from(threshold);
                 if builder.is_solid(&balls, &bounds) {
                     prop_assert!(least > threshold, "solid, but {} <= {}", least, threshold);
@@ -319,6 +372,8 @@ mod tests {
             kernel: Kernel::QUARTIC,
             threshold,
             max_depth: 64,
+            radius: Some(2.0),
+            strength: Some(1.0),
             options: Options::certified(),
         };
         let bounds = Aabb { min: Vec3::new(1.0, -1.0, -1.0), max: Vec3::ONE };
