@@ -155,80 +155,87 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         search = Search(NARROW, 0u, frame.enter, frame.enter, frame.leave, 0.0, 0u);
     }
 
-    while search.stage == NARROW && search.iterations < LOOKS {
-        if !can_walk(walk_length()) {
-            return WAITING;
+    loop {
+        if search.stage == NARROW && search.iterations < LOOKS {
+            if !can_walk(walk_length()) {
+                return WAITING;
+            }
+            let seen = look(frame, ray.direction, search.low, search.high);
+            let tells = seen.outcome != UNCLEAR || seen.low > search.low || seen.high < search.high;
+            search.iterations = select(LOOKS, search.iterations + 1u, tells);
+            if seen.outcome == BELOW && search.high >= frame.leave {
+                return MISSED;
+            }
+            if seen.outcome == ABOVE {
+                return found_at(max(at(frame, seen.high), 0.0), HIT);
+            }
+            if seen.outcome == ONCE {
+                search.stage = SOLVE;
+                search.high_value = seen.guess;
+            } else {
+                search.low = select(seen.low, search.high, seen.outcome == BELOW);
+                search.low_value = search.low;
+                search.high = select(seen.high, frame.leave, seen.outcome == BELOW);
+            }
         }
-        let seen = look(frame, ray.direction, search.low, search.high);
-        let tells = seen.outcome != UNCLEAR || seen.low > search.low || seen.high < search.high;
-        search.iterations = select(LOOKS, search.iterations + 1u, tells);
-        if seen.outcome == BELOW && search.high >= frame.leave {
-            return MISSED;
-        }
-        if seen.outcome == ABOVE {
-            return found_at(max(at(frame, seen.high), 0.0), HIT);
-        }
-        if seen.outcome == ONCE {
-            search.stage = SOLVE;
-            search.high_value = seen.guess;
-        } else {
-            search.low = select(seen.low, search.high, seen.outcome == BELOW);
-            search.low_value = search.low;
-            search.high = select(seen.high, frame.leave, seen.outcome == BELOW);
+        if search.stage != NARROW || search.iterations >= LOOKS {
+            break;
         }
     }
 
     // A look that tells anything has found the excess below 0 where it begins. Without, the ray's start may be
     // beyond the root: that is asked once.
-    let is_new = frame.starts && search.low == frame.enter && search.iterations <= LOOKS;
-    if search.stage == NARROW && is_new {
-        if !can_walk(walk_length()) {
-            return WAITING;
-        }
-        search.iterations = LOOKS + 1u;
-        let start = bounds_on(frame, ray.direction, frame.enter, frame.enter);
-        if start.end_least >= 0.0 {
-            return found_at(0.0, INSIDE);
-        }
-        if start.most >= 0.0 {
-            return found_at(0.0, UNDECIDED);
-        }
-    }
-
-    while search.stage == NARROW {
-        if !can_walk(walk_length()) {
-            return WAITING;
-        }
-        // The interval from `probe` on is looked at; before it the excess is below 0 up to `low`, and
-        // rises from there.
-        let probe = search.low_value;
-        let width = search.high - probe;
-        let bounds = bounds_on(frame, ray.direction, probe, search.high);
-        let rises = bounds.least_slope > 0.0;
-        // What rises is greatest at its end.
-        let is_below = bounds.most < 0.0 || (rises && bounds.end_most < 0.0);
-        let is_short = width <= SHORT * bounds.radius;
-        if any_will_do() && bounds.end_least > 0.0 {
-            return found_at(max(at(frame, search.high), 0.0), HIT);
-        }
-        if bounds.end_least > 0.0 && (rises || is_short) {
-            search.stage = SOLVE;
-            search.high_value = probe + width * cubic_root(bounds.start, bounds.end, width);
-        } else if is_below || rises {
-            // All below 0; or rising so close to 0 that what comes next must tell.
-            if search.high >= frame.leave {
-                return far_end(frame, ray, is_below);
+    var is_new = frame.starts && search.low == frame.enter && search.iterations <= LOOKS;
+    loop {
+        if search.stage == NARROW {
+            if !can_walk(walk_length()) {
+                return WAITING;
             }
-            search.low = select(search.low, search.high, is_below);
-            search.low_value = search.high;
-            search.high = min(search.high + 2.0 * width, frame.leave);
-        } else {
-            let middle = probe + 0.5 * width;
-            // No float is left between the ends, or none that would tell anything.
-            if middle <= probe || middle >= search.high || is_short {
-                return found_at(max(at(frame, probe), 0.0), UNDECIDED);
+            // The interval from `probe` on is looked at; before it the excess is below 0 up to `low`, and
+            // rises from there.
+            let probe = search.low_value;
+            let width = search.high - probe;
+            let bounds = bounds_on(frame, ray.direction, probe, select(search.high, probe, is_new));
+            if is_new {
+                if bounds.end_least >= 0.0 {
+                    return found_at(0.0, INSIDE);
+                }
+                if bounds.most >= 0.0 {
+                    return found_at(0.0, UNDECIDED);
+                }
+                search.iterations = LOOKS + 1u;
+                is_new = false;
+                continue;
             }
-            search.high = middle;
+            let rises = bounds.least_slope > 0.0;
+            // What rises is greatest at its end.
+            let is_below = bounds.most < 0.0 || (rises && bounds.end_most < 0.0);
+            let is_short = width <= SHORT * bounds.radius;
+            if any_will_do() && bounds.end_least > 0.0 {
+                return found_at(max(at(frame, search.high), 0.0), HIT);
+            }
+            if bounds.end_least > 0.0 && (rises || is_short) {
+                search.stage = SOLVE;
+                search.high_value = probe + width * cubic_root(bounds.start, bounds.end, width);
+            } else if is_below || rises {
+                // All below 0; or rising so close to 0 that what comes next must tell.
+                if search.high >= frame.leave {
+                    return far_end(frame, ray, is_below);
+                }
+                search.low = select(search.low, search.high, is_below);
+                search.low_value = search.high;
+                search.high = min(search.high + 2.0 * width, frame.leave);
+            } else {
+                let middle = probe + 0.5 * width;
+                // No float is left between the ends, or none that would tell anything.
+                if middle <= probe || middle >= search.high || is_short {
+                    return found_at(max(at(frame, probe), 0.0), UNDECIDED);
+                }
+                search.high = middle;
+            }
+        }
+        if search.stage != NARROW {
+            break;
         }
     }
 

@@ -85,23 +85,28 @@ fn passage(index: u32, ray: Ray, inverse: vec3<f32>) -> structure::Stretch {
 // ray is finished.
 fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
     var place = start;
-    while place != structure::EMPTY {
+    loop {
         // To the next leaf: rays side by side come to theirs before any of them searches it.
-        while (place & structure::LEAF) == 0u {
-            if !suspend::can_go_on() {
-                return place;
+        loop {
+            if (place & structure::LEAF) == 0u {
+                if !suspend::can_go_on() {
+                    return place;
+                }
+                suspend::spent++;
+                count_node();
+                go_down();
+                let node = structure::nodes[place];
+                let children = children_of(node, ray, inverse);
+                if children.far != structure::EMPTY && children.far_enter < best_t {
+                    push(children.far, children.far_enter);
+                }
+                place = children.near;
+                if place == structure::EMPTY || children.near_enter >= best_t {
+                    place = pop();
+                }
             }
-            suspend::spent++;
-            count_node();
-            go_down();
-            let node = structure::nodes[place];
-            let children = children_of(node, ray, inverse);
-            if children.far != structure::EMPTY && children.far_enter < best_t {
-                push(children.far, children.far_enter);
-            }
-            place = children.near;
-            if place == structure::EMPTY || children.near_enter >= best_t {
-                place = pop();
+            if (place & structure::LEAF) != 0u {
+                break;
             }
         }
         if place == structure::EMPTY || !suspend::can_go_on() {
@@ -143,6 +148,9 @@ fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
         }
         leaf::search.stage = leaf::ENTER;
         place = pop();
+        if place == structure::EMPTY {
+            break;
+        }
     }
     return place;
 }
