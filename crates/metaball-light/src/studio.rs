@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 use metaball_core::gpu::{
-    Binding, Frame, FrameReport, Gpu, IsoRenderer, Question, RayBatch, RayTracer, RenderError,
+    Binding, Frame, FrameReport, Gpu, IsoRenderer, RayBatch, RayQuery, RayTracer, RenderError,
     Shader, Specialization, Targets, bind_group, bind_group_layout, render_with,
 };
 use metaball_core::{NO_LIMIT, Scene, View};
@@ -284,7 +284,7 @@ impl<'a> Studio<'a> {
         if let (Some(found), Some(colors)) = (targets.colors(), paths.colors()) {
             frame.encoder().copy_buffer_to_buffer(found, 0, colors, 0, colors.size());
         }
-        self.paths.encode_list(frame, Question::FirstHit, "light start")?;
+        self.paths.encode_list(frame, RayQuery::FirstHit, "light start")?;
         self.meet_surface(frame);
         Ok(())
     }
@@ -300,15 +300,15 @@ impl<'a> Studio<'a> {
         let own = self.settings.lights * self.settings.shadows + self.settings.occlusion_rays;
         frame.compute("light start", |pass| self.record(pass, &self.passes.start));
         for _ in 0..=self.effects.bounces {
-            tracer.encode_answers(frame, &self.paths, Question::FirstHit)?;
+            tracer.encode_answers(frame, &self.paths, RayQuery::FirstHit)?;
             self.meet_surface(frame);
-            if needed.contains(&Question::Exit) {
-                tracer.encode_answers(frame, &self.paths, Question::Exit)?;
+            if needed.contains(&RayQuery::Exit) {
+                tracer.encode_answers(frame, &self.paths, RayQuery::Exit)?;
                 self.meet_surface(frame);
             }
-            if needed.contains(&Question::AnyHit) {
+            if needed.contains(&RayQuery::AnyHit) {
                 for _ in 0..own {
-                    tracer.encode_answers(frame, &self.feelers, Question::AnyHit)?;
+                    tracer.encode_answers(frame, &self.feelers, RayQuery::AnyHit)?;
                     frame.compute("light feel", |pass| {
                         self.record_along(pass, &self.passes.feel, &self.feelers);
                     });
@@ -379,12 +379,12 @@ impl Passes {
 
 impl Effects {
     /// What rays must be able to ask for these effects.
-    fn questions(&self) -> Vec<Question> {
+    fn questions(&self) -> Vec<RayQuery> {
         match self.surface {
-            Surface::Fluid { .. } => vec![Question::FirstHit, Question::Exit],
+            Surface::Fluid { .. } => vec![RayQuery::FirstHit, RayQuery::Exit],
             Surface::Opaque { .. } => {
-                let feeler = self.feel().then_some(Question::AnyHit);
-                [Question::FirstHit].into_iter().chain(feeler).collect()
+                let feeler = self.feel().then_some(RayQuery::AnyHit);
+                [RayQuery::FirstHit].into_iter().chain(feeler).collect()
             }
         }
     }

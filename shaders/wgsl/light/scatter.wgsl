@@ -62,14 +62,14 @@ fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
             return;
         }
     }
-    feelers[pixel].question |= ANSWERED;
+    feelers[pixel].query |= ANSWERED;
     let mirror = mirror_share(*path, direction);
     let toward = normalize(reflect(direction, (*path).normal));
     (*path).throughput *= mirror;
     if mirror == 0.0 || (*path).bounces >= settings.bounces {
         // The last surface of a path mirrors the surroundings alone.
         (*path).radiance += (*path).throughput * beyond((*path).place, toward);
-        path_rays[pixel].question |= ANSWERED;
+        path_rays[pixel].query |= ANSWERED;
         return;
     }
     (*path).bounces += 1u;
@@ -179,7 +179,7 @@ fn pass_through(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     if (*path).bounces >= settings.bounces {
         // Beyond the last surface there are only the surroundings.
         (*path).radiance += (*path).throughput * beyond((*path).place, toward);
-        path_rays[pixel].question |= ANSWERED;
+        path_rays[pixel].query |= ANSWERED;
         return;
     }
     (*path).bounces += 1u;

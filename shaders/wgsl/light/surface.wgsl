@@ -52,7 +52,7 @@ fn meet_surface(
         path.doubts += u32(verdict == INSIDE && path.bounces > 0u && path.stage == OUTSIDE);
     } else {
         path.radiance += path.throughput * environment(ray.direction);
-        path_rays[pixel].question |= ANSWERED;
+        path_rays[pixel].query |= ANSWERED;
         paths[pixel] = path;
         return;
     }

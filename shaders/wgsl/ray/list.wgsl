@@ -35,7 +35,7 @@ fn list_rays(
     var asks = false;
     var place = 0u;
     if in_picture(at) {
-        asks = free_rays[pixel].question == question;
+        asks = free_rays[pixel].query == question;
     }
     if asks {
         place = atomicAdd(&asking, 1u);

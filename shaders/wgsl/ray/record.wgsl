@@ -1,4 +1,4 @@
-// A ray with a start and a question of its own: 32 bytes.
+// A ray with a start and a query of its own: 32 bytes.
 #define_import_path metaball::free_ray
 
 // Twin of `FreeRay` in metaball-core. The points `origin + t * direction`, 0 <= t <= t_max; the
@@ -8,16 +8,16 @@ struct FreeRay {
     origin: vec3<f32>,
     t_max: f32,
     direction: vec3<f32>,
-    // One of the questions below, plus ANSWERED.
-    question: u32,
+    // One of the queries below, plus ANSWERED.
+    query: u32,
 }
 
-// The questions of metaball-core, by number; a ray that asks nothing is not looked at.
+// The values of `RayQuery` in metaball-core; a ray without a query is not traced.
 const NOTHING: u32 = 0u;
 const FIRST_HIT: u32 = 1u;
 const ANY_HIT: u32 = 2u;
 const EXIT: u32 = 3u;
-// Added to a question that is answered: the ray is not looked at again.
+// Added to a query once its answer has been read: the ray is not traced again.
 const ANSWERED: u32 = 256u;
 
 fn no_ray() -> FreeRay {

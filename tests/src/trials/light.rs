@@ -7,7 +7,7 @@ use bench_scenes::{BenchScene, cases};
 use glam::{Vec3, Vec3Swizzles};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{
-    FrameStatus, FreeRay, Gpu, Question, RayBatch, RenderError, Targets, render_with,
+    FrameStatus, FreeRay, Gpu, RayBatch, RayQuery, RenderError, Targets, render_with,
 };
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
@@ -81,7 +81,7 @@ pub(super) fn trials() -> Vec<Trial> {
 /// A free ray that was asked, and its answer.
 struct Asked {
     ray: Ray,
-    question: Question,
+    query: RayQuery,
     hit: Hit,
 }
 
@@ -135,7 +135,7 @@ fn floor_below(scene: &Scene) -> Floor {
 fn answers(gpu: &Gpu, batch: &RayBatch) -> Result<Vec<Asked>, Failed> {
     let (rays, hits) = (batch.read_rays(gpu)?, batch.read_hits(gpu)?);
     let asked =
-        |(ray, hit): (FreeRay, Hit)| Some(Asked { ray: ray.ray(), question: ray.question()?, hit });
+        |(ray, hit): (FreeRay, Hit)| Some(Asked { ray: ray.ray(), query: ray.query()?, hit });
     Ok(rays.into_iter().zip(hits).filter_map(asked).collect())
 }
 
@@ -154,22 +154,22 @@ struct Findings {
 fn judge(scene: &Scene, asked: &[Asked]) -> Findings {
     let oracle = Oracle::new(scene);
     let mut findings = Findings { asked: asked.len(), ..Findings::default() };
-    for Asked { ray, question, hit } in asked {
+    for Asked { ray, query, hit } in asked {
         findings.hits += usize::from(hit.is_hit());
         if hit.verdict == Verdict::Undecided {
             findings.undecided += 1;
             continue;
         }
-        let wrong = match question {
-            Question::Exit => exit_is_wrong(&oracle, scene, ray, hit),
-            Question::FirstHit | Question::AnyHit => {
+        let wrong = match query {
+            RayQuery::Exit => exit_is_wrong(&oracle, scene, ray, hit),
+            RayQuery::FirstHit | RayQuery::AnyHit => {
                 let truth = oracle.first_hit(ray);
                 if truth.is_ambiguous() {
                     findings.ambiguous += 1;
                     continue;
                 }
                 findings.starts_inside += usize::from(truth.verdict == Verdict::Inside);
-                let is_late = *question == Question::FirstHit
+                let is_late = *query == RayQuery::FirstHit
                     && hit.is_hit()
                     && (f64::from(hit.t) - truth.t).abs() > 0.05 * f64::from(truth.smallest_radius);
                 (hit.is_hit() != (truth.verdict != Verdict::Miss) || is_late)
@@ -177,7 +177,7 @@ fn judge(scene: &Scene, asked: &[Asked]) -> Findings {
             }
         };
         if let Some(needed) = wrong {
-            findings.violations.push(format!("{needed}, found {hit:?} of {question:?} {ray:?}"));
+            findings.violations.push(format!("{needed}, found {hit:?} of {query:?} {ray:?}"));
         }
     }
     findings
@@ -232,17 +232,17 @@ fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), 
             // Half of the others start outside: they are out at once, though the ray comes to the solid.
             let is_inside = || oracle.field(origin.as_dvec3()) > 1.01 * threshold;
             if index % 3 == 0 && (index % 2 == 0 || is_inside()) {
-                return FreeRay::new(&ray, Question::Exit);
+                return FreeRay::new(&ray, RayQuery::Exit);
             }
             let width = bounds.extent().x;
             let t_max = [NO_LIMIT, 0.2 * width, 1e-9 * width][index % 5 % 3];
-            let question = [Question::FirstHit, Question::AnyHit][index / 2 % 2];
-            FreeRay::new(&Ray { t_max, ..ray }, question)
+            let query = [RayQuery::FirstHit, RayQuery::AnyHit][index / 2 % 2];
+            FreeRay::new(&Ray { t_max, ..ray }, query)
         })
         .collect();
 
     let asked = ask(gpu, scene, &view, &rays)?;
-    let exits = asked.iter().filter(|one| one.question == Question::Exit).count();
+    let exits = asked.iter().filter(|one| one.query == RayQuery::Exit).count();
     let findings = judge(scene, &asked);
     if asked.len() != rays.len() || exits < 10 {
         return Err(format!("{} rays of {}, {exits} exits", asked.len(), rays.len()).into());
@@ -273,7 +273,7 @@ fn rays_that_graze(gpu: &Gpu) -> Result<(), Failed> {
         (0..16u8).map(move |step| {
             let share = 10.0f32.powf(-1.0 - 0.5 * f32::from(step / 4));
             let ray = beside(low * if step % 2 == 0 { 1.0 + share } else { 1.0 - share });
-            FreeRay::new(&ray, [Question::FirstHit, Question::AnyHit][usize::from(step / 2 % 2)])
+            FreeRay::new(&ray, [RayQuery::FirstHit, RayQuery::AnyHit][usize::from(step / 2 % 2)])
         })
     };
     let rays: Vec<_> = (0..400.min(view.pixels() / 16)).flat_map(grazing).collect();
@@ -310,7 +310,7 @@ fn ways_out_at_faces_of_boxes(gpu: &Gpu) -> Result<(), Failed> {
             };
             let origin = reach * ((share.x - 0.5) * axis + beside);
             let direction = (reach * (axis + aside) - origin).normalize();
-            FreeRay::new(&Ray::new(origin, direction), Question::Exit)
+            FreeRay::new(&Ray::new(origin, direction), RayQuery::Exit)
         };
         let rays: Vec<_> = (0..view.pixels().min(3000)).map(from_beneath).collect();
         let findings = judge(&scene, &ask(gpu, &scene, &view, &rays)?);
@@ -335,7 +335,7 @@ fn ask(gpu: &Gpu, scene: &Scene, view: &View, rays: &[FreeRay]) -> Result<Vec<As
         let reason = "needed a tracer of any ray, found none".to_owned();
         let none = RenderError::Unsupported { method: name, reason };
         let tracer = renderer.ray_tracer().ok_or(none)?;
-        Question::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, &batch, ask))
+        RayQuery::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, &batch, ask))
     })?;
     answers(gpu, &batch)
 }

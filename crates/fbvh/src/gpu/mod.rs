@@ -50,7 +50,7 @@ use std::time::Instant;
 
 use metaball_core::Scene;
 use metaball_core::gpu::{
-    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, Question, RayBatch, RayTracer, RenderError,
+    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RayBatch, RayQuery, RayTracer, RenderError,
     SceneBuffers, Specialization,
 };
 
@@ -181,17 +181,17 @@ impl IsoRenderer for Renderer {
 }
 
 impl RayTracer for Renderer {
-    fn answers(&self, question: Question) -> bool {
-        question != Question::Exit || self.options.kind() == Kind::Certified
+    fn answers(&self, query: RayQuery) -> bool {
+        query != RayQuery::Exit || self.options.kind() == Kind::Certified
     }
 
     fn encode_answers(
         &mut self,
         frame: &mut Frame<'_>,
         batch: &RayBatch,
-        question: Question,
+        query: RayQuery,
     ) -> Result<(), RenderError> {
-        if !self.answers(question) {
+        if !self.answers(query) {
             let reason = "needed a certified tree to tell where rays leave the solid, found a \
                           published one";
             return Err(RenderError::Unsupported { method: self.name, reason: reason.to_owned() });
@@ -199,13 +199,13 @@ impl RayTracer for Renderer {
         let (Some(pipelines), Some(built)) = (&mut self.pipelines, &self.built) else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
-        let answering = pipelines.answering(frame.gpu(), question)?;
-        let labels = match question {
-            Question::FirstHit => ("first hits", "resume first hits"),
-            Question::AnyHit => ("any hits", "resume any hits"),
-            Question::Exit => ("exits", "resume exits"),
+        let answering = pipelines.answering(frame.gpu(), query)?;
+        let labels = match query {
+            RayQuery::FirstHit => ("first hits", "resume first hits"),
+            RayQuery::AnyHit => ("any hits", "resume any hits"),
+            RayQuery::Exit => ("exits", "resume exits"),
         };
-        batch.encode_list(frame, question, labels.0)?;
+        batch.encode_list(frame, query, labels.0)?;
         record(frame, built, answering, &Rays::Listed(batch), labels, self.resumes);
         Ok(())
     }

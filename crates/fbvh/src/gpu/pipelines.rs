@@ -1,7 +1,7 @@
 //! The pipelines, and what they are specialised for.
 
 use metaball_core::gpu::{
-    Binding, Gpu, Question, RenderError, Specialization, bind_group_layout, compute_pipeline,
+    Binding, Gpu, RayQuery, RenderError, Specialization, bind_group_layout, compute_pipeline,
     frame_layout, free_ray_layout, scene_layout,
 };
 use metaball_core::{Kernel, KernelForm};
@@ -30,13 +30,13 @@ pub(super) struct TracePipelines {
     pub(super) resume: wgpu::ComputePipeline,
 }
 
-/// The pipelines of a scene: for primary rays at once, for each question of free rays when it is
+/// The pipelines of a scene: for primary rays at once, for each query of free rays when it is
 /// first asked.
 pub(super) struct Pipelines {
     pub(super) specialized: Specialized,
     pub(super) layouts: Layouts,
     pub(super) primary: TracePipelines,
-    free: [Option<TracePipelines>; Question::ALL.len()],
+    free: [Option<TracePipelines>; RayQuery::ALL.len()],
     options: TraceOptions,
 }
 
@@ -57,13 +57,13 @@ impl Pipelines {
         Ok(Self { specialized, layouts, primary, free: Default::default(), options: *options })
     }
 
-    /// The pipelines of that question, made when it is first asked.
+    /// The pipelines of that query, made when it is first used.
     pub(super) fn answering(
         &mut self,
         gpu: &Gpu,
-        question: Question,
+        query: RayQuery,
     ) -> Result<&TracePipelines, RenderError> {
-        let place = &mut self.free[question as usize - 1];
+        let place = &mut self.free[query as usize - 1];
         let made = match place.take() {
             Some(made) => made,
             None => TracePipelines::new(
@@ -71,7 +71,7 @@ impl Pipelines {
                 &self.specialized,
                 &self.layouts,
                 &self.options,
-                Some(question),
+                Some(query),
             )?,
         };
         Ok(place.insert(made))
@@ -79,16 +79,16 @@ impl Pipelines {
 }
 
 impl TracePipelines {
-    /// For primary rays, or for the free rays that ask a question.
+    /// For primary rays, or for free rays with one query.
     fn new(
         gpu: &Gpu,
         specialized: &Specialized,
         layouts: &Layouts,
         options: &TraceOptions,
-        question: Option<Question>,
+        query: Option<RayQuery>,
     ) -> Result<Self, RenderError> {
         let Specialized { scene, kind, root } = *specialized;
-        let spec = scene.choosing(modules(kind, &scene, question));
+        let spec = scene.choosing(modules(kind, &scene, query));
         // Section 4 leaves no choice: the modified BVH is always read literally.
         let clipped = kind == Kind::Fitted && options.reading == Reading::Clipped;
         // The ids of the override constants in fbvh/leaf.wgsl and fbvh/trace.wgsl.
@@ -99,11 +99,11 @@ impl TracePipelines {
             ("20", f64::from(options.max_iterations)),
         ];
         let mut constants = vec![("21", f64::from(root))];
-        constants.extend(question.map(|question| (Question::CONSTANT, f64::from(question as u32))));
+        constants.extend(query.map(|query| (RayQuery::CONSTANT, f64::from(query as u32))));
         if kind != Kind::Certified {
             constants.extend(published);
         }
-        let rays = if question.is_some() { &layouts.free } else { &layouts.primary };
+        let rays = if query.is_some() { &layouts.free } else { &layouts.primary };
         let groups = [rays, &layouts.scene, &layouts.tree];
         let pipeline = |label, entry| {
             compute_pipeline(gpu, label, "fbvh/trace", entry, &spec, &groups, &constants)
@@ -116,13 +116,9 @@ impl TracePipelines {
 }
 
 /// Where rays come from, and how leaves are searched.
-fn modules(
-    kind: Kind,
-    scene: &Specialization,
-    question: Option<Question>,
-) -> &'static [&'static str] {
+fn modules(kind: Kind, scene: &Specialization, query: Option<RayQuery>) -> &'static [&'static str] {
     let is_quartic = scene.kernel == Kernel::QUARTIC && scene.kernel_form == KernelForm::Known;
-    match (kind, question) {
+    match (kind, query) {
         (Kind::ModifiedBvh | Kind::Fitted, None) => &["ray/primary", "fbvh/leaf"],
         (Kind::ModifiedBvh | Kind::Fitted, Some(_)) => &["ray/free", "fbvh/leaf"],
         (Kind::Certified, None) if is_quartic => {
@@ -131,7 +127,7 @@ fn modules(
         (Kind::Certified, None) => {
             &["ray/primary", "fbvh/certified_leaf", "fbvh/rises", "fbvh/no_look"]
         }
-        (Kind::Certified, Some(Question::Exit)) => {
+        (Kind::Certified, Some(RayQuery::Exit)) => {
             &["ray/free", "fbvh/certified_leaf", "fbvh/falls", "fbvh/no_look"]
         }
         (Kind::Certified, Some(_)) if is_quartic => {

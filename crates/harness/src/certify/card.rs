@@ -3,7 +3,7 @@
 use fbvh::gpu::Renderer;
 use fbvh::{Options, TraceOptions};
 use metaball_core::gpu::{
-    FreeRay, Gpu, IsoRenderer, Question, RayBatch, RenderError, Targets, render, render_with,
+    FreeRay, Gpu, IsoRenderer, RayBatch, RayQuery, RenderError, Targets, render, render_with,
 };
 use metaball_core::{Camera, Hit, Kernel, Ray, Scene, View};
 
@@ -82,7 +82,7 @@ impl Session<'_> {
             let reason = "needed a tracer of any ray, found none".to_owned();
             let none = RenderError::Unsupported { method: name, reason };
             let tracer = renderer.ray_tracer().ok_or(none)?;
-            Question::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, batch, ask))
+            RayQuery::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, batch, ask))
         })?;
         let mut hits = self.batch.read_hits(self.gpu)?;
         hits.truncate(rays.len());

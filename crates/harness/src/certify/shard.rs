@@ -4,7 +4,7 @@ use anyhow::Context;
 use bench_scenes::{Case, Random, arbitrary, cases};
 use fbvh::{Options, TraceOptions, Tree};
 use glam::Vec3;
-use metaball_core::gpu::{FreeRay, Question as Asked};
+use metaball_core::gpu::{FreeRay, RayQuery};
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Camera, Hit, Ray, Scene, Verdict, View};
 
@@ -273,9 +273,9 @@ impl Rays {
         let some: Vec<_> =
             self.rays[self.free..].iter().step_by(ADAPTER_STEP).take(PIXELS).collect();
         let question = |index: usize, aimed: &Aimed| match aimed.aim {
-            Aim::Exit => Asked::Exit,
-            _ if index.is_multiple_of(ANY_HIT_STEP) => Asked::AnyHit,
-            _ => Asked::FirstHit,
+            Aim::Exit => RayQuery::Exit,
+            _ if index.is_multiple_of(ANY_HIT_STEP) => RayQuery::AnyHit,
+            _ => RayQuery::FirstHit,
         };
         let ask = |(index, (aimed, _)): (usize, &&(Aimed, Truth))| {
             FreeRay::new(&aimed.ray, question(index, aimed))
@@ -284,9 +284,9 @@ impl Rays {
         let hits = answer(&batch)?;
         for (index, ((aimed, truth), hit)) in some.iter().zip(&hits).enumerate() {
             let question = match question(index, aimed) {
-                Asked::FirstHit => Question::FirstHit,
-                Asked::AnyHit => Question::AnyHit,
-                Asked::Exit => Question::Exit,
+                RayQuery::FirstHit => Question::FirstHit,
+                RayQuery::AnyHit => Question::AnyHit,
+                RayQuery::Exit => Question::Exit,
             };
             tally.count(&Exam { question, ..*exam }, aimed, truth, hit);
         }
@@ -381,10 +381,10 @@ mod tests {
         let oracle = Oracle::new(&trial.scene);
         let tree = Tree::build(&trial.scene, &Options::certified()).expect("a tree");
         let tracer = fbvh::Tracer::new(&tree, &trial.scene, TraceOptions::DEFAULT);
-        let answer = |free: &FreeRay| match free.question().expect("asked") {
-            Asked::Exit => tracer.first_exit(&free.ray()).expect("certified"),
-            Asked::FirstHit => tracer.first_hit(&free.ray()),
-            Asked::AnyHit => Hit { verdict: tracer.any_hit(&free.ray()), ..Hit::MISS },
+        let answer = |free: &FreeRay| match free.query().expect("asked") {
+            RayQuery::Exit => tracer.first_exit(&free.ray()).expect("certified"),
+            RayQuery::FirstHit => tracer.first_hit(&free.ray()),
+            RayQuery::AnyHit => Hit { verdict: tracer.any_hit(&free.ray()), ..Hit::MISS },
         };
         let wrong = |turned: usize| {
             let exam = Exam {

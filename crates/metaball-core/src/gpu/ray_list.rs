@@ -1,4 +1,4 @@
-//! The rays of a batch that ask one question, side by side.
+//! The list of the rays of a batch that have one query.
 
 use std::sync::OnceLock;
 
@@ -6,10 +6,10 @@ use bytemuck::{Pod, Zeroable};
 
 use super::layout::{Binding, group, layout};
 use super::pipeline::{Specialization, compute_pipeline};
-use super::{Frame, Gpu, Question, RenderError};
+use super::{Frame, Gpu, RayQuery, RenderError};
 
-/// What a list begins with: WGSL's `Listed` of `ray/listed.wgsl`. The first twelve bytes are the size of an
-/// indirect dispatch along it.
+/// What a list begins with: WGSL's `Listed` of `shaders/wgsl/ray/listed.wgsl`. The first twelve bytes are
+/// the arguments of an indirect dispatch along it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(super) struct ListHead {
@@ -19,17 +19,17 @@ pub(super) struct ListHead {
     pub(super) count: u32,
 }
 
-/// The list, and the passes that make it: one for each question.
+/// The list, and the passes that make it: one for each query.
 #[derive(Debug)]
 pub(super) struct RayList {
     buffer: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
-    pipelines: [OnceLock<wgpu::ComputePipeline>; Question::ALL.len()],
+    pipelines: [OnceLock<wgpu::ComputePipeline>; RayQuery::ALL.len()],
 }
 
 impl RayList {
-    /// For so many rays, one a pixel of a view.
+    /// For batches of so many rays.
     pub(super) fn new(
         gpu: &Gpu,
         pixels: u64,
@@ -37,11 +37,11 @@ impl RayList {
         rays: &wgpu::Buffer,
     ) -> Result<Self, RenderError> {
         let bytes = size_of::<ListHead>() as u64 + pixels * size_of::<u32>() as u64;
-        let buffer = gpu.storage("rays that ask", bytes, wgpu::BufferUsages::INDIRECT)?;
+        let buffer = gpu.storage("listed rays", bytes, wgpu::BufferUsages::INDIRECT)?;
         let bindings = [(0, Binding::Uniform), (1, Binding::Read), (2, Binding::Write)];
-        let layout = layout(gpu, "rays that ask", &bindings);
+        let layout = layout(gpu, "listed rays", &bindings);
         let buffers = [(0, view), (1, rays), (2, &buffer)];
-        let bind_group = gpu.checked(|| group(gpu, "rays that ask", &layout, &buffers))?;
+        let bind_group = gpu.checked(|| group(gpu, "listed rays", &layout, &buffers))?;
         Ok(Self { buffer, layout, bind_group, pipelines: Default::default() })
     }
 
@@ -49,14 +49,14 @@ impl RayList {
         &self.buffer
     }
 
-    /// Records the pass that lists the rays with this question.
+    /// Records the pass `label` that lists the rays with this query.
     pub(super) fn encode(
         &self,
         frame: &mut Frame<'_>,
-        question: Question,
+        query: RayQuery,
         label: &'static str,
     ) -> Result<(), RenderError> {
-        let pipeline = self.pipeline(frame.gpu(), question)?;
+        let pipeline = self.pipeline(frame.gpu(), query)?;
         let (across, down) = frame.targets().workgroups();
         frame.encoder().clear_buffer(&self.buffer, 0, Some(size_of::<ListHead>() as u64));
         frame.compute(label, |pass| {
@@ -67,27 +67,23 @@ impl RayList {
         Ok(())
     }
 
-    fn pipeline(
-        &self,
-        gpu: &Gpu,
-        question: Question,
-    ) -> Result<&wgpu::ComputePipeline, RenderError> {
-        let place = &self.pipelines[question as usize - 1];
-        if let Some(made) = place.get() {
+    fn pipeline(&self, gpu: &Gpu, query: RayQuery) -> Result<&wgpu::ComputePipeline, RenderError> {
+        let slot = &self.pipelines[query as usize - 1];
+        if let Some(made) = slot.get() {
             return Ok(made);
         }
         let spec = Specialization::without_balls();
-        let constants = [(Question::CONSTANT, f64::from(question as u32))];
+        let constants = [(RayQuery::CONSTANT, f64::from(query as u32))];
         let layouts = [&self.layout];
         let made = compute_pipeline(
             gpu,
-            "rays that ask",
+            "listed rays",
             "ray/list",
             "list_rays",
             &spec,
             &layouts,
             &constants,
         )?;
-        Ok(place.get_or_init(|| made))
+        Ok(slot.get_or_init(|| made))
     }
 }

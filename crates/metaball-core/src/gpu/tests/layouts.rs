@@ -20,10 +20,7 @@ fn host_structs_are_their_twins() {
     let twins = [
         (wgsl("core/hit", "Hit"), host_layout!(PackedHit { normal, t, status })),
         (wgsl("core/view", "Ray"), host_layout!(PackedRay { direction, t_max })),
-        (
-            wgsl("ray/record", "FreeRay"),
-            host_layout!(FreeRay { origin, t_max, direction, question }),
-        ),
+        (wgsl("ray/record", "FreeRay"), host_layout!(FreeRay { origin, t_max, direction, query })),
         (
             wgsl("core/view", "View"),
             host_layout!(ViewUniform { eye, width, right, height, up, half_pixel, forward }),
