@@ -74,8 +74,8 @@ impl Terms {
             Knobs::Fragments(illes_fraglist::Options { piece: Piece::Robust, .. }) => {
                 Self::of(preset)
             }
-            Knobs::Fragments(illes_fraglist::Options { piece, room, .. }) => {
-                Self::of(Promise::Fragments { piece, room })
+            Knobs::Fragments(illes_fraglist::Options { piece, array_capacity, .. }) => {
+                Self::of(Promise::Fragments { piece, array_capacity })
             }
         }
     }

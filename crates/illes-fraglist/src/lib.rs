@@ -55,7 +55,7 @@
 //! [`Piece::Robust`] are within rounding, for kernels that are polynomials of degree up to six along
 //! a ray; other kernels they refuse.
 //!
-//! More balls over one point than the array has room for ([`Options::room`]) make the published
+//! More balls over one point than the array has room for ([`Options::array_capacity`]) make the published
 //! method pass separators that are not safe; such pixels are marked as fallback.
 //!
 //! A pixel's list may have 6,144 balls before the core, and a tile 120,000; more is refused in words,
@@ -94,5 +94,7 @@ mod tiles;
 
 pub use canvas::ListStats;
 pub use deviation::{Deviation, cubic_deviation};
-pub use options::{Gather, MOST_ROOM, Options, Piece, Sort};
+pub use options::{
+    ARRAY_CAPACITY, Gather, LIST_CAPACITY, Options, Piece, ROOT_TOLERANCE, Sort, TILE_CAPACITY,
+};
 pub use renderer::Renderer;

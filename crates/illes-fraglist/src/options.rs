@@ -45,16 +45,30 @@ pub struct Options {
     pub gather: Gather,
     /// Where balls are sorted.
     pub sort: Sort,
-    /// Separators in a ray's local array, from 3 to [`MOST_ROOM`]; others are taken as the nearest
-    /// of these. The paper has "surely less than 100".
-    pub room: u32,
+    /// Separators that a ray's local array holds, from 3 to [`ARRAY_CAPACITY`]; others are taken as the
+    /// nearest of these.
+    pub array_capacity: u32,
     /// List nodes that the pool begins with, 8 bytes each. Too few cost a frame drawn again.
     pub first_nodes: u32,
 }
 
-/// The largest [`Options::room`]: the size that the array is compiled with, `MOST` of
-/// `illes_fraglist/records.wgsl`.
-pub const MOST_ROOM: u32 = 96;
+/// The largest [`Options::array_capacity`], and the default: separators of a ray's local array as it is
+/// compiled, `MOST` of `illes_fraglist/records.wgsl`. Section 6 has "surely less than 100"; a ball has
+/// three.
+pub const ARRAY_CAPACITY: u32 = 96;
+
+/// The most balls that a ray may meet before its core: walks along its list must stay within the
+/// iterations of software Vulkan. `LONGEST_LIST` of `illes_fraglist/budget.wgsl`.
+pub const LIST_CAPACITY: u32 = 6_144;
+
+/// The most balls over a tile of the picture with [`Gather::Tiles`], bounded as [`LIST_CAPACITY`] is.
+/// `MOST_ENTRIES` of `illes_fraglist/collect.wgsl`.
+pub const TILE_CAPACITY: u32 = 120_000;
+
+/// How far behind the root of a piece a hit may be, in parts of the piece between two separators,
+/// which is no longer than a radius; rounding aside. The width at which the root finders of
+/// `illes_fraglist/cubic.wgsl` and `bernstein.wgsl` end.
+pub const ROOT_TOLERANCE: f64 = 4e-7;
 
 impl Default for Options {
     /// The published method; 8 MB of nodes.
@@ -63,7 +77,7 @@ impl Default for Options {
             piece: Piece::Cubic,
             gather: Gather::Raster,
             sort: Sort::Host,
-            room: MOST_ROOM,
+            array_capacity: ARRAY_CAPACITY,
             first_nodes: 1 << 20,
         }
     }

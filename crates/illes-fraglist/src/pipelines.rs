@@ -3,7 +3,7 @@
 use metaball_core::Kernel;
 use metaball_core::gpu::{Gpu, RenderError, Shader, Specialization, frame_layout, scene_layout};
 
-use crate::options::{Gather, MOST_ROOM, Options, Sort, exact_degree};
+use crate::options::{ARRAY_CAPACITY, Gather, Options, Sort, exact_degree};
 use crate::radix::RadixSort;
 use crate::raster::RasterGather;
 use crate::tiles::{TileGather, tile_layout};
@@ -73,7 +73,7 @@ impl Pipelines {
 /// The ids of the override constants in `illes_fraglist/records.wgsl` and
 /// `polynomial.wgsl`.
 fn cast_constants(kernel: Kernel, options: &Options) -> Vec<(&'static str, f64)> {
-    let mut constants = vec![("49", f64::from(options.room.clamp(3, MOST_ROOM)))];
+    let mut constants = vec![("49", f64::from(options.array_capacity.clamp(3, ARRAY_CAPACITY)))];
     if let (true, Some(degree)) = (options.piece.is_exact(), exact_degree(kernel)) {
         let weight = |power: usize| {
             kernel.coefficients().and_then(|all| all.get(power)).copied().unwrap_or(0.0)

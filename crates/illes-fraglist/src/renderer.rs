@@ -9,11 +9,10 @@ use metaball_core::gpu::{
 use metaball_core::{Scene, Support, View};
 
 use crate::canvas::{Canvas, ListStats, Rooms};
-use crate::options::{Gather, Options};
+use crate::options::{Gather, Options, TILE_CAPACITY};
 use crate::pipelines::{GatherPasses, Pipelines};
 use crate::radix::SortRoom;
 use crate::sort::by_effective_distance;
-use crate::tiles::MOST_ENTRIES;
 
 /// Entries of tiles that a renderer begins with: 1 MB.
 const FIRST_ENTRIES: u32 = 1 << 18;
@@ -205,7 +204,7 @@ impl IsoRenderer for Renderer {
         let refuse = |reason| Err(RenderError::Unsupported { method: self.name, reason });
         if fullest > 0 {
             return refuse(format!(
-                "needed at most {MOST_ENTRIES} balls over a tile, found {fullest}"
+                "needed at most {TILE_CAPACITY} balls over a tile, found {fullest}"
             ));
         }
         let has_entries = self.rooms.entries.is_none_or(|room| room >= entries);

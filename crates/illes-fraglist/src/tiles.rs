@@ -9,9 +9,6 @@ use crate::renderer::Built;
 /// Tiles of a picture at most: `MOST_TILES` of `illes_fraglist/tiles.wgsl`.
 const TILES: u64 = 16384;
 
-/// Entries of a tile at most: `MOST_ENTRIES` of `illes_fraglist/collect.wgsl`.
-pub(crate) const MOST_ENTRIES: u32 = 120_000;
-
 /// Invocations of a workgroup of `illes_fraglist/bin.wgsl`, and workgroups of a row of a dispatch.
 const BALLS_OF_GROUP: u32 = 64;
 const GROUPS_OF_ROW: u32 = 32768;

@@ -1,7 +1,7 @@
 //! Lists, arrays and cubics at their limits.
 
 use glam::{DVec3, Vec3};
-use illes_fraglist::{Gather, Options, Piece, Renderer};
+use illes_fraglist::{Gather, LIST_CAPACITY, Options, Piece, Renderer};
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
 use metaball_core::{Camera, Hit, Kernel, Metaball, Ray, Scene, Verdict, View};
 
@@ -122,15 +122,18 @@ fn a_small_array_marks_what_it_may_spoil_and_nothing_else() {
     let ample = draw(&gpu, &scene, &view, Options::default());
     assert!(ample.hits.iter().all(|hit| !hit.fallback));
     let mut before = usize::MAX;
-    for room in [3, 4, 12, 48] {
-        let tight = draw(&gpu, &scene, &view, Options { room, ..Options::default() });
+    for array_capacity in [3, 4, 12, 48] {
+        let tight = draw(&gpu, &scene, &view, Options { array_capacity, ..Options::default() });
         let marked = tight.hits.iter().filter(|hit| hit.fallback).count();
-        assert!(marked <= before, "room {room}: {marked} pixels after {before}");
+        assert!(marked <= before, "capacity {array_capacity}: {marked} pixels after {before}");
         before = marked;
         for (tight, ample) in tight.hits.iter().zip(&ample.hits) {
-            assert!(tight.fallback || tight == ample, "room {room}: {tight:?} for {ample:?}");
+            assert!(
+                tight.fallback || tight == ample,
+                "capacity {array_capacity}: {tight:?} for {ample:?}"
+            );
         }
-        if room == 3 {
+        if array_capacity == 3 {
             assert!(marked > 100, "an array of three is enough for nearly all: no test");
         }
     }
@@ -144,13 +147,13 @@ fn the_robust_variant_is_right_with_any_array() {
     let (scene, view) = (crowd(60, Kernel::Wyvill, 0.3), view(5.0, 4.0));
     let robust = Options { piece: Piece::Robust, ..Options::default() };
     let ample = draw(&gpu, &scene, &view, robust);
-    for room in [3, 5] {
-        let tight = draw(&gpu, &scene, &view, Options { room, ..robust });
+    for array_capacity in [3, 5] {
+        let tight = draw(&gpu, &scene, &view, Options { array_capacity, ..robust });
         for (tight, ample) in tight.hits.iter().zip(&ample.hits) {
             assert!(!tight.fallback);
-            assert_eq!(tight.verdict, ample.verdict, "room {room}");
+            assert_eq!(tight.verdict, ample.verdict, "capacity {array_capacity}");
             let is_near = !ample.is_hit() || (tight.t - ample.t).abs() < 1e-4;
-            assert!(is_near, "room {room}: {tight:?} for {ample:?}");
+            assert!(is_near, "capacity {array_capacity}: {tight:?} for {ample:?}");
         }
     }
 }
@@ -209,12 +212,14 @@ fn a_list_that_is_too_long_is_refused_with_its_numbers() {
     let camera = view(5.0, 3.0);
     let view = View::new(*camera.camera(), 3, 3).expect("a legal size");
     let ball = Metaball { center: Vec3::ZERO, radius: 1.0, strength: 1e-6 };
-    let scene = Scene::new(vec![ball; 6_145], Kernel::QUARTIC, 0.3).expect("a legal scene");
+    let scene = Scene::new(vec![ball; LIST_CAPACITY as usize + 1], Kernel::QUARTIC, 0.3)
+        .expect("a legal scene");
     let mut renderer = Renderer::new("illes", Options::default(), false);
     renderer.build(&gpu, &scene).expect("builds");
     let targets = Targets::new(&gpu, 3, 3, false, false).expect("small targets");
     let error = render(&gpu, &mut renderer, &targets, &view).expect_err("too long").to_string();
-    assert!(error.contains("at most 6144 balls along a ray"), "{error}");
+    let needed = format!("at most {LIST_CAPACITY} balls along a ray");
+    assert!(error.contains(&needed), "{error}");
 }
 
 #[test]

@@ -4,14 +4,16 @@ use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError, SceneBuffers, bind_group};
 use metaball_core::{Aabb, Scene, View};
 
+use crate::MOST_LIST_CAPACITY;
 use crate::pipelines::Layouts;
 
 /// Balls of a workgroup of the passes over balls: `LANES` of `arrange.wgsl`.
 const LANES: u32 = 256;
 
-/// The most balls: indices that f32 keeps exactly, and one loop of `register.wgsl` over their
-/// workgroups, which software Vulkan ends after 65,535 iterations.
-pub(crate) const MOST_BALLS: usize = 65_000 * LANES as usize;
+/// The most balls of a scene: targets keep indices as f32, exact up to 2²⁴, and one loop of
+/// `kanamori_peel/register.wgsl` goes over their workgroups, of 65,535 iterations at most on software
+/// Vulkan.
+pub const MOST_BALLS: usize = 65_000 * LANES as usize;
 
 /// WGSL's `Peeling` of `frame.wgsl`.
 #[repr(C)]
@@ -46,7 +48,7 @@ pub(crate) struct Arranged {
     /// Balls around the eye.
     pub(crate) around: u32,
     /// The first of them.
-    pub(crate) around_balls: [u32; 30],
+    pub(crate) around_balls: [u32; MOST_LIST_CAPACITY as usize],
 }
 
 /// Buffers of one scene.

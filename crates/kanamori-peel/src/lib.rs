@@ -87,5 +87,9 @@ pub mod robust;
 mod tests;
 mod tiles;
 
-pub use options::{Clipping, Options, Outline, Registration};
+pub use balls::MOST_BALLS;
+pub use options::{
+    CLIPPING_THRESHOLD, Clipping, LIST_CAPACITY, MOST_LIST_CAPACITY, Options, Outline,
+    Registration, STACK_SIZE,
+};
 pub use renderer::Renderer;

@@ -35,11 +35,27 @@ pub enum Registration {
     Device,
 }
 
+/// K as published: the balls that a ray's list holds (section 4.2). Four targets of four f32, less the
+/// list's two numbers of its own.
+pub const LIST_CAPACITY: u32 = 14;
+
+/// The most that [`Options::list_capacity`] can be: eight targets, less two numbers. `MOST_ACTIVE` of
+/// `kanamori_peel/arranged.wgsl`.
+pub const MOST_LIST_CAPACITY: u32 = 30;
+
+/// The published width at which a range is a root, in parts of an interval: the "10e−4" of section 5.4.
+/// An interval is at most two radii long and a root the middle of its range, so t errs by at most this
+/// much of a radius, rounding aside.
+pub const CLIPPING_THRESHOLD: f32 = 1e-3;
+
+/// The published number of ranges that can wait on the short stack (section 5.4).
+pub const STACK_SIZE: u32 = 3;
+
 /// Settings; the default is the published method with the paper's own numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// K, the balls that a ray's list holds: 1 to 30, as far as the adapter's targets go. The
-    /// paper's four targets hold 14 (section 4.2).
+    /// K, the balls that a ray's list holds: 1 to [`MOST_LIST_CAPACITY`], as far as the adapter's
+    /// targets go. Published: [`LIST_CAPACITY`].
     pub list_capacity: u32,
     /// What is rasterised for a ball. It bears on time alone.
     pub outline: Outline,
@@ -54,24 +70,24 @@ pub struct Options {
     /// How an interval is searched.
     pub clipping: Clipping,
     /// Width at which a range is a root, in parts of an interval between two points of a ray: 1e-6
-    /// to 0.5. The paper prints 10e−4 (section 5.4).
+    /// to 0.5. Published: [`CLIPPING_THRESHOLD`].
     pub threshold: f32,
-    /// Ranges that can wait on the short stack, 1 to 4; the paper's is 3 (section 5.4). It bears on
-    /// time alone.
+    /// Ranges that can wait on the short stack, 1 to 4. Published: [`STACK_SIZE`]. It bears on time
+    /// alone.
     pub stack_size: u32,
 }
 
 impl Default for Options {
     fn default() -> Self {
         Self {
-            list_capacity: 14,
+            list_capacity: LIST_CAPACITY,
             outline: Outline::Rectangle,
             culling: true,
             tiles: 8,
             registration: Registration::Host,
             clipping: Clipping::ShortStack,
-            threshold: 1e-3,
-            stack_size: 3,
+            threshold: CLIPPING_THRESHOLD,
+            stack_size: STACK_SIZE,
         }
     }
 }
@@ -97,9 +113,8 @@ impl Options {
         let limits = gpu.device.limits();
         let targets = limits
             .max_color_attachments
-            .min(limits.max_color_attachment_bytes_per_sample / TARGET_BYTES)
-            .min(8);
-        let longest = (4 * targets).saturating_sub(HEAD);
+            .min(limits.max_color_attachment_bytes_per_sample / TARGET_BYTES);
+        let longest = (4 * targets).saturating_sub(HEAD).min(MOST_LIST_CAPACITY);
         if !(1..=longest).contains(&self.list_capacity) {
             let found = self.list_capacity;
             return refused(format!(

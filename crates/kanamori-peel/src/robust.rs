@@ -24,7 +24,7 @@
 //!
 //! # Practice
 //! Any kernel, Perlin's too. Where the surface lies within 3e-6 of v = 1 − r²/R² of the rims, as with
-//! the quartic at thresholds below 1e-11 of the strengths, rays come back undecided. At most [`MOST_WINDOW`]
+//! the quartic at thresholds below 1e-11 of the strengths, rays come back undecided. At most [`INTERVAL_CAPACITY`]
 //! balls may reach one interval of a ray, and 131,072 one tile of 16 × 16 pixels: beyond that the frame is
 //! refused with the numbers. 24 bytes a pixel, 8 for each entry of a list.
 
@@ -42,11 +42,17 @@ use metaball_core::gpu::{
 pub(crate) use self::room::{Entry, State};
 use self::room::{Room, room_layout};
 
-/// The most balls that the search can hold apart on one interval of a ray.
-pub const MOST_WINDOW: u32 = 8_192;
+/// The most balls whose supports may reach one interval of a ray: one walk along them must stay within
+/// the iterations of software Vulkan. `MOST_WINDOW` of `kanamori_robust/search.wgsl`.
+pub const INTERVAL_CAPACITY: u32 = 8_192;
 
-/// The most balls over a tile: `MOST_ENTRIES` of `kanamori_robust/lists.wgsl`.
-const MOST_ENTRIES: u32 = 131_072;
+/// The most balls over a tile of 16 × 16 pixels, bounded by the iterations that sorting them takes.
+/// `MOST_ENTRIES` of `kanamori_robust/lists.wgsl`.
+pub const TILE_CAPACITY: u32 = 131_072;
+
+/// How far from the root a hit may be, in parts of the least support radius there, rounding aside: an
+/// interval that is shorter is not halved further. `SHORT` of `kanamori_robust/search.wgsl`.
+pub const ROOT_TOLERANCE: f64 = 1.0 / (1 << 20) as f64;
 
 /// Entries of all tiles that a renderer begins with: 2 MB.
 const FIRST_ENTRIES: u32 = 1 << 18;
@@ -174,7 +180,7 @@ impl IsoRenderer for Renderer {
         let refuse = |reason| Err(RenderError::Unsupported { method: self.name, reason });
         if longest > 0 {
             return refuse(format!(
-                "needed at most {MOST_ENTRIES} balls over a tile, found {longest}"
+                "needed at most {TILE_CAPACITY} balls over a tile, found {longest}"
             ));
         }
         if entries > self.entries {
@@ -183,7 +189,7 @@ impl IsoRenderer for Renderer {
         }
         if window > 0 {
             return refuse(format!(
-                "needed at most {MOST_WINDOW} balls that reach one interval of a ray, found more"
+                "needed at most {INTERVAL_CAPACITY} balls that reach one interval of a ray, found more"
             ));
         }
         self.resumes = (2 * self.resumes).max(1);

@@ -12,7 +12,7 @@
 @group(3) @binding(6) var core_distance: texture_storage_2d<r32float, write>;
 
 // Entries of a tile at most: two walks along them, four an iteration, stay below the 65,535 iterations
-// of software Vulkan. Invocations side by side share a tile and walk together. Twin: MOST_ENTRIES of crates/illes-fraglist/src/tiles.rs.
+// of software Vulkan. Invocations side by side share a tile and walk together. Twin: TILE_CAPACITY of crates/illes-fraglist/src/options.rs.
 const MOST_ENTRIES: u32 = 120000u;
 
 @compute @workgroup_size(8, 8)

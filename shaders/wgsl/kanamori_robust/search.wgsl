@@ -25,7 +25,7 @@
 // silently, after 65,535 iterations, which come to the sum where they go different ways.
 @id(44) override budget: u32 = 4000u;
 
-// Balls that one interval can reach: MOST_WINDOW of crates/kanamori-peel/src/robust.rs.
+// Balls that one interval can reach: INTERVAL_CAPACITY of crates/kanamori-peel/src/robust.rs.
 const MOST_WINDOW: u32 = 8192u;
 // Behind the last ball of a walk.
 const END: u32 = 0xffffffffu;

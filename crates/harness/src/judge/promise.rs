@@ -3,7 +3,7 @@
 //! A published method may be wrong where its paper says so, and nowhere else. Whether a ray is such
 //! a place is decided here from the scene and the truth alone, never from what the method drew.
 
-use illes_fraglist::{MOST_ROOM, Piece};
+use illes_fraglist::{ARRAY_CAPACITY, Piece};
 use metaball_core::reference::Truth;
 use metaball_core::{Metaball, Ray, Scene};
 
@@ -34,7 +34,7 @@ pub enum Promise {
         /// The polynomial between two separators.
         piece: Piece,
         /// Separators that the array holds.
-        room: u32,
+        array_capacity: u32,
     },
     /// Every ray.
     Always,
@@ -48,10 +48,14 @@ pub fn promise_of(method: &str) -> Promise {
     match method {
         "fbvh" => Promise::Projection,
         "bvh" => Promise::ProjectionOfCover,
-        "kanamori" => Promise::Peeling { list_capacity: 14 },
-        "illes" | "illes-compute" => Promise::Fragments { piece: Piece::Cubic, room: MOST_ROOM },
-        "illes-absolute" => Promise::Fragments { piece: Piece::AbsoluteCubic, room: MOST_ROOM },
-        "illes-exact" => Promise::Fragments { piece: Piece::Exact, room: MOST_ROOM },
+        "kanamori" => Promise::Peeling { list_capacity: kanamori_peel::LIST_CAPACITY as usize },
+        "illes" | "illes-compute" => {
+            Promise::Fragments { piece: Piece::Cubic, array_capacity: ARRAY_CAPACITY }
+        }
+        "illes-absolute" => {
+            Promise::Fragments { piece: Piece::AbsoluteCubic, array_capacity: ARRAY_CAPACITY }
+        }
+        "illes-exact" => Promise::Fragments { piece: Piece::Exact, array_capacity: ARRAY_CAPACITY },
         "fbvh-certified" | "kanamori-robust" | "illes-robust" => Promise::Always,
         _ => panic!("method {method}: needed a line in promise_of, found none"),
     }
@@ -92,8 +96,8 @@ impl Promise {
     /// a list is too short, and a point that is lost leaves its ball on the list for good; with
     /// fragment lists, where the array of separators is.
     pub fn allows_fallback(self, scene: &Scene, ray: &Ray, truth: &Truth) -> bool {
-        if let Self::Fragments { room, .. } = self {
-            return may_overflow(room as usize, scene, ray);
+        if let Self::Fragments { array_capacity, .. } = self {
+            return may_overflow(array_capacity as usize, scene, ray);
         }
         let Self::Peeling { list_capacity } = self else { return false };
         let points = Points::up_to(truth.t, scene, ray);

@@ -170,9 +170,9 @@ fn fragment_lists(method: &'static Method) -> Vec<Setting> {
         _ => return Vec::new(),
     };
     let knobs = [
-        ("array", "6", Options { room: 6, ..preset }),
-        ("array", "12", Options { room: 12, ..preset }),
-        ("array", "24", Options { room: 24, ..preset }),
+        ("array", "6", Options { array_capacity: 6, ..preset }),
+        ("array", "12", Options { array_capacity: 12, ..preset }),
+        ("array", "24", Options { array_capacity: 24, ..preset }),
         ("sort", "device", Options { sort: Sort::Device, ..preset }),
     ];
     let setting =

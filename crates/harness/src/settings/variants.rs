@@ -24,7 +24,7 @@ fn variant(method: &'static Method) -> Option<Setting> {
         }
         "illes-exact" => {
             let piece = Piece::Exact;
-            let short = illes_fraglist::Options { piece, room: 30, ..Default::default() };
+            let short = illes_fraglist::Options { piece, array_capacity: 30, ..Default::default() };
             let setting = Setting::with(method, "array", "30", Knobs::Fragments(short));
             Some(setting.called("illes-exact+30", "… array of 30"))
         }

@@ -6,7 +6,7 @@ use metaball_core::gpu::{Gpu, IsoRenderer, RenderError, Targets, render};
 use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, Verdict, View};
 use metaball_shaders::{compose, host_layout, struct_layout};
 
-use crate::robust::{Entry, MOST_WINDOW, Renderer, State};
+use crate::robust::{Entry, INTERVAL_CAPACITY, Renderer, State};
 
 fn draw(gpu: &Gpu, scene: &Scene, camera: Camera) -> Result<Vec<Hit>, RenderError> {
     let view = View::new(camera, 24, 18).expect("a size");
@@ -38,9 +38,9 @@ fn more_than_the_limit_is_refused_by_number() {
         let ball = Metaball { center: Vec3::ZERO, radius: 1.0, strength: 1e-4 };
         Scene::new(vec![ball; balls as usize], Kernel::QUARTIC, 0.25).expect("legal")
     };
-    let hits = draw(&gpu, &crowd(MOST_WINDOW), camera).expect("draws");
+    let hits = draw(&gpu, &crowd(INTERVAL_CAPACITY), camera).expect("draws");
     assert!(hits.iter().any(|hit| hit.verdict == Verdict::Hit));
-    match draw(&gpu, &crowd(MOST_WINDOW + 1), camera) {
+    match draw(&gpu, &crowd(INTERVAL_CAPACITY + 1), camera) {
         Err(RenderError::Unsupported { reason, .. }) => {
             assert_eq!(
                 reason,
