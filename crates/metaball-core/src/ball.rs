@@ -1,4 +1,4 @@
-//! Metaballs, their support spheres and their colours.
+//! Metaballs and their support spheres.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -31,22 +31,4 @@ pub struct Support {
     pub center: Vec3,
     /// Support radius R, scene units, positive.
     pub radius: f32,
-}
-
-/// An opaque colour, sRGB-encoded, eight bits a channel; the fourth byte is always 255, so that a
-/// colour is one `u32` for WGSL's `unpack4x8unorm`.
-#[repr(transparent)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
-pub struct Color([u8; 4]);
-
-impl Color {
-    /// From sRGB-encoded channels.
-    pub const fn srgb(red: u8, green: u8, blue: u8) -> Self {
-        Self([red, green, blue, 255])
-    }
-
-    /// The sRGB-encoded channels: red, green, blue.
-    pub const fn to_srgb(self) -> [u8; 3] {
-        [self.0[0], self.0[1], self.0[2]]
-    }
 }

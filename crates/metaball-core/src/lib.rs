@@ -19,18 +19,24 @@
 mod aabb;
 mod ball;
 mod camera;
+mod color;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod kernel;
+mod picture;
 mod ray;
 pub mod reference;
 mod scene;
+mod work;
 
 pub use aabb::Aabb;
-pub use ball::{Color, Metaball, Support};
+pub use ball::{Metaball, Support};
 pub use camera::{Camera, CameraError, View, ViewError};
+pub use color::Color;
 pub use kernel::{Exponent, ExponentError, Kernel};
+pub use picture::{Image, Picture, Shaded, ValueRange};
 pub use ray::{Hit, NO_LIMIT, PackedHit, Ray, Verdict};
 pub use scene::{
     Generality, KernelForm, RADIUS_LIMITS, Scene, SceneError, check_ball, check_field,
 };
+pub use work::{Work, WorkKind};

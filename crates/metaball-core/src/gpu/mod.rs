@@ -66,7 +66,6 @@ mod spheres;
 mod targets;
 #[cfg(test)]
 mod tests;
-mod work;
 
 pub use adapter::{AdapterChoice, AdapterReport, GpuError};
 pub use batch::RayBatch;
@@ -80,6 +79,7 @@ pub use ray_tracer::RayTracer;
 pub use rays::PackedRay;
 pub use renderer::{BuildReport, IsoRenderer, render, render_with};
 pub use scene_buffers::{KernelRead, SceneBuffers, SceneHeader, scene_layout};
-pub use shade::{Image, Picture, Shaded, Shading, ValueRange};
+pub use shade::Shading;
 pub use targets::{TILE, Targets, ViewUniform, frame_layout, free_ray_layout};
-pub use work::{Work, WorkKind};
+
+pub use crate::{Image, Picture, Shaded, ValueRange, Work, WorkKind};

@@ -1,62 +1,11 @@
 //! Pictures of what a frame found, the same for all methods.
 
-use bytemuck::{Pod, Zeroable};
-
 use super::layout::{Binding, group, layout};
 use super::spheres::SpherePicture;
-use super::{Gpu, RenderError, Specialization, Targets, WorkKind, compute_pipeline, frame_layout};
-use crate::{Scene, View};
+use super::{Gpu, RenderError, Specialization, Targets, compute_pipeline, frame_layout};
+use crate::{Image, Picture, Scene, Shaded, ValueRange, View, WorkKind};
 
-/// What to show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Picture {
-    /// The lit surface, in the blended colours where the scene has colours.
-    Phong,
-    /// Normals as colours: red to the right, green upwards, blue towards the eye.
-    Normal,
-    /// Distances as grey, white where the surface is nearest.
-    Depth,
-    /// The surface's colour without light.
-    Color,
-    /// The balls alone: each as the sphere in which it reaches the threshold by itself (Kanamori et
-    /// al. 2008, figure 11 left). Needs no hits.
-    Spheres,
-    /// What each pixel cost, as a heat map from 0 to the costliest pixel.
-    Work(WorkKind),
-}
-
-/// A picture, eight bits a channel.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Image {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Red, green, blue (sRGB-encoded) and 255, row by row from the top left.
-    pub rgba: Vec<u8>,
-}
-
-/// A picture and its scale.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Shaded {
-    /// The picture.
-    pub image: Image,
-    /// What the ends of the scale stand for: scene units for [`Picture::Depth`], a count for
-    /// [`Picture::Work`], nothing for the others.
-    pub range: Option<ValueRange>,
-}
-
-/// Ends of a scale: WGSL's `ValueRange` of `shade/picture.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
-pub struct ValueRange {
-    /// The least value.
-    pub low: f32,
-    /// The greatest value.
-    pub high: f32,
-}
-
-/// Key of the override constant in `shade/work.wgsl`: its `@id`.
+/// Key of the override constant in `shaders/wgsl/shade/work.wgsl`: its `@id`.
 const COUNTER: &str = "1";
 
 /// Makes pictures. Not part of a frame: nobody times it, and it waits for what it draws.
@@ -91,7 +40,10 @@ impl<'a> Shading<'a> {
             Picture::Phong => ("shade/phong", None, Vec::new()),
             Picture::Normal => ("shade/normal", None, Vec::new()),
             Picture::Color => ("shade/color", None, Vec::new()),
-            Picture::Depth => ("shade/depth", Some(self.depths(targets)?), Vec::new()),
+            Picture::Depth => {
+                let range = ValueRange::of_distances(&targets.read_hits(self.gpu)?);
+                ("shade/depth", Some(range), Vec::new())
+            }
             Picture::Work(kind) => {
                 let constants = vec![(COUNTER, f64::from(kind as u32))];
                 ("shade/work", Some(self.counts(targets, kind)?), constants)
@@ -139,16 +91,6 @@ impl<'a> Shading<'a> {
             gpu.queue.submit([encoder.finish()]);
         })?;
         Ok(Image { width, height, rgba: gpu.read(&pixels)? })
-    }
-
-    /// Distances of the nearest and the farthest hit; 0 and 0 where there is none.
-    fn depths(&self, targets: &Targets) -> Result<ValueRange, RenderError> {
-        let hits = targets.read_hits(self.gpu)?;
-        let depths = || hits.iter().filter(|hit| hit.is_hit()).map(|hit| hit.t);
-        Ok(ValueRange {
-            low: depths().reduce(f32::min).unwrap_or(0.0),
-            high: depths().reduce(f32::max).unwrap_or(0.0),
-        })
     }
 
     /// From 0 to what the costliest pixel counted.

@@ -5,13 +5,13 @@ use glam::Vec3;
 
 use super::layout::{Binding, group, layout};
 use super::targets::ViewUniform;
-use super::{Gpu, Image, RenderError, Shader, Specialization, Targets, pipeline_layout};
-use crate::{Color, Scene, View};
+use super::{Gpu, RenderError, Shader, Specialization, Targets, pipeline_layout};
+use crate::{Image, Scene, View};
 
 const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// A ball as `shade/spheres.wgsl` draws it: WGSL's `CoreSphere`.
+/// A ball as `shaders/wgsl/shade/spheres.wgsl` draws it: WGSL's `CoreSphere`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(super) struct CoreSphere {
@@ -157,11 +157,11 @@ impl SpherePicture {
 
 /// Each ball's sphere of its own threshold, with the ball's colour or a common one.
 fn core_spheres(scene: &Scene) -> Vec<CoreSphere> {
-    // As `WHITE` of shade/light.wgsl.
+    // As `WHITE` of shaders/wgsl/shade/light.wgsl.
     const WHITE: Vec3 = Vec3::new(0.80, 0.78, 0.74);
     let cores = scene.balls().enumerate().filter_map(|(index, ball)| {
         let radius = scene.kernel().core_radius(&ball, scene.threshold())? as f32;
-        let color = scene.colors().map_or(WHITE, |colors| linear(colors[index]));
+        let color = scene.colors().map_or(WHITE, |colors| colors[index].to_linear());
         (radius > 0.0).then_some(CoreSphere { center: ball.center, radius, color, half_depth: 0.0 })
     });
     let mut spheres: Vec<_> = cores.collect();
@@ -170,15 +170,6 @@ fn core_spheres(scene: &Scene) -> Vec<CoreSphere> {
         sphere.half_depth = smallest;
     }
     spheres
-}
-
-/// An sRGB colour in linear light (IEC 61966-2-1).
-fn linear(color: Color) -> Vec3 {
-    let decode = |channel: u8| {
-        let encoded = f32::from(channel) / 255.0;
-        if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-    };
-    Vec3::from(color.to_srgb().map(decode))
 }
 
 fn pipeline(

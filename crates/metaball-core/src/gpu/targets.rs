@@ -9,8 +9,8 @@ use glam::Vec3;
 use super::clock::Clock;
 use super::layout::{Binding, group, layout};
 use super::rays::{PackedRay, RayPass};
-use super::{FrameStatus, Gpu, RenderError, Specialization, Work};
-use crate::{Color, Hit, PackedHit, Ray, View};
+use super::{FrameStatus, Gpu, RenderError, Specialization};
+use crate::{Color, Hit, PackedHit, Ray, View, Work};
 
 /// Pixels on a side of the square that a workgroup of a pass over the picture covers:
 /// `@workgroup_size(8, 8)`.
