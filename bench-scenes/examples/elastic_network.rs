@@ -19,9 +19,9 @@
 use std::error::Error;
 use std::io::Read;
 
-use bench_scenes::{Overrides, load, pack_frames};
 use flate2::read::MultiGzDecoder;
 use glam::DVec3;
+use particle_files::{pack_frames, read};
 
 /// Springs reach so far, Å.
 const CUTOFF: f64 = 15.0;
@@ -44,11 +44,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [molecule, packed] = arguments.as_slice() else { return Err("needed PDB OUTPUT".into()) };
     let nodes = alpha_carbons(molecule)?;
     let modes = Network::new(&nodes).softest_modes()?;
-    let atoms = load(molecule, &Overrides::default())?.scene;
+    let atoms = read(molecule)?.balls;
     let frames: Vec<Vec<glam::Vec3>> = modes
         .iter()
         .map(|mode| {
-            let centers = atoms.supports().iter().map(|support| support.center.as_dvec3());
+            let centers = atoms.iter().map(|atom| atom.center.as_dvec3());
             centers.map(|center| displacement(center, &nodes, mode).as_vec3()).collect()
         })
         .collect();

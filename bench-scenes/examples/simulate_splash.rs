@@ -18,8 +18,9 @@
 
 use std::error::Error;
 
-use bench_scenes::{FRAME_RATE, pack_frames};
+use bench_scenes::FRAME_RATE;
 use glam::{DVec3, IVec3};
+use particle_files::pack_frames;
 
 /// Distance of neighbours at rest, metres.
 const SPACING: f64 = 0.048;

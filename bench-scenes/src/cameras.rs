@@ -1,23 +1,13 @@
-//! Cameras that frame a scene.
+//! Cameras that go around a scene, or up to it.
 
 use glam::Vec3;
 use metaball_core::{Aabb, Camera};
+use particle_files::framing;
 
 use crate::exact::turn;
 
 /// The number of cameras on a walk around a scene.
 const STEPS: u32 = 8;
-
-/// A camera that shows the box from `direction` (from its middle to the eye), nearer than one that
-/// is sure to show its corners: supports are larger than what is seen of them.
-pub(crate) fn framing(bounds: &Aabb, direction: Vec3) -> Camera {
-    const SEEN: f32 = 0.88;
-    if bounds.is_empty() {
-        return Camera::framing(bounds, direction);
-    }
-    let (center, half) = (bounds.center(), 0.5 * SEEN * bounds.extent());
-    Camera::framing(&Aabb { min: center - half, max: center + half }, direction)
-}
 
 /// Cameras like [`framing`]'s at equal steps around the vertical axis, that of `direction` first.
 pub(crate) fn walk_around(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {

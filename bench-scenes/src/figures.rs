@@ -3,8 +3,9 @@
 
 use glam::Vec3;
 use metaball_core::{Aabb, Camera, Kernel, Metaball, Scene};
+use particle_files::framing;
 
-use crate::cameras::{framing, walk_around};
+use crate::cameras::walk_around;
 use crate::error::LoadError;
 use crate::generate;
 use crate::small::{Shot, looking};

@@ -1,12 +1,11 @@
 //! The scenes that have a name.
 
-use metaball_core::{Kernel, Scene};
+use metaball_core::Kernel;
+use particle_files::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, framing, parse};
 
-use crate::cameras::{framing, walk_around};
+use crate::cameras::walk_around;
 use crate::error::LoadError;
 use crate::figures::{self, Walk};
-use crate::file::{FileKind, unpack};
-use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
 use crate::small::{self, Shot};
 use crate::{BenchScene, Kind, generate};
 
@@ -29,7 +28,7 @@ enum Recipe {
     /// A generator's spec.
     Generated(&'static str),
     /// A file of this package, and where it is seen from (from the middle to the eye).
-    Data(FileKind, &'static str, &'static [u8], [f32; 3]),
+    Data(&'static str, &'static [u8], [f32; 3]),
     /// A figure of a paper.
     Figure(fn() -> Result<Walk, LoadError>),
     /// Made by hand.
@@ -59,32 +58,17 @@ const KNOWN: &[KnownScene] = &[
     large(
         "molecule",
         "Rhodopsin, 5,547 atoms with their hydrogens, in the colours of the elements.",
-        Data(
-            FileKind::Pdb,
-            "md_1u19.pdb.gz",
-            include_bytes!("../data/md_1u19.pdb.gz"),
-            [1.0, 0.15, 0.2],
-        ),
+        Data("md_1u19.pdb.gz", include_bytes!("../data/md_1u19.pdb.gz"), [1.0, 0.15, 0.2]),
     ),
     large(
         "molecule-large",
         "A ribosome, 165,175 atoms, in the colours of the elements.",
-        Data(
-            FileKind::Mmcif,
-            "6zu5.cif.gz",
-            include_bytes!("../data/6zu5.cif.gz"),
-            [0.5, 0.3, 1.0],
-        ),
+        Data("6zu5.cif.gz", include_bytes!("../data/6zu5.cif.gz"), [0.5, 0.3, 1.0]),
     ),
     large(
         "dam-break",
         "A simulated dam break, 30,720 particles of water 0.6 s after the dam is gone.",
-        Data(
-            FileKind::Quantized,
-            "dam-break.balls",
-            include_bytes!("../data/dam-break.balls"),
-            [0.5, 0.4, 1.0],
-        ),
+        Data("dam-break.balls", include_bytes!("../data/dam-break.balls"), [0.5, 0.4, 1.0]),
     ),
     large("scattered-30k", "30,000 equal balls, sparse.", Generated("scattered:30000")),
     large("scattered-100k", "100,000 equal balls, sparse.", Generated("scattered:100000")),
@@ -187,8 +171,8 @@ impl KnownScene {
                 let made = recipe.scene()?;
                 (made.scene, made.camera, made.path)
             }
-            Data(kind, file, bytes, seen_from) => {
-                let scene = data(kind, file, bytes)?;
+            Data(file, bytes, seen_from) => {
+                let scene = parse(file, bytes)?.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD)?;
                 let (bounds, seen_from) = (scene.bounds(), seen_from.into());
                 (scene, framing(&bounds, seen_from), walk_around(&bounds, seen_from))
             }
@@ -207,15 +191,4 @@ impl KnownScene {
             kind: self.kind,
         })
     }
-}
-
-fn data(kind: FileKind, file: &str, bytes: &[u8]) -> Result<Scene, LoadError> {
-    let unpacked = if file.ends_with(".gz") {
-        unpack(bytes).map_err(|source| LoadError::Read { file: file.to_owned(), source })?
-    } else {
-        bytes.to_vec()
-    };
-    kind.parse(&unpacked)
-        .and_then(|particles| particles.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD))
-        .map_err(|flaw| flaw.in_file(file))
 }

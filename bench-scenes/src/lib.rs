@@ -1,7 +1,7 @@
-//! Scenes for comparing metaball ray casters, and the loader of users' own.
+//! Scenes for comparing metaball ray casters.
 //!
 //! [`load()`] takes what a user types: a name of [`known()`], a generator's spec
-//! (`tornado:5000:40:7`), or the path of a scene file or a particle file. The [`cases()`] are scenes
+//! (`tornado:5000:40:7`), or the path of a file, which `particle-files` reads. The [`cases()`] are scenes
 //! with a parameter that is turned until a method breaks, [`arbitrary()`] ones are of any kind, by seed.
 //! [`Moving`] scenes have a scene for each frame.
 //! Nothing here knows of any method or GPU.
@@ -18,42 +18,27 @@ mod arbitrary;
 mod cameras;
 mod cases;
 mod density;
-mod elements;
 mod error;
 mod exact;
 mod figures;
-mod file;
 mod generate;
-mod guard;
 mod known;
 mod load;
-mod molecule;
 mod moving;
-mod numbered;
-mod packed_frames;
-mod particles;
-mod quantized;
 mod random;
-mod scene_file;
 mod small;
-mod table;
-mod xyz;
 
 use metaball_core::{Camera, Scene};
 
 pub use arbitrary::arbitrary;
 pub use cases::{Case, Drawing, Subject, cases};
 pub use density::mean_overlap;
-pub use error::{LoadError, Place};
+pub use error::LoadError;
 pub use generate::{Generator, generators};
 pub use known::{KnownScene, known};
-pub use load::{Overrides, kernel_named, load};
-pub use molecule::SUPPORT_OVER_VAN_DER_WAALS;
+pub use load::load;
 pub use moving::{FRAME_RATE, Moving, moving};
-pub use numbered::NumberedPath;
-pub use packed_frames::pack_frames;
-pub use particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
-pub use quantized::quantize;
+pub use particle_files::Overrides;
 pub use random::Random;
 
 /// A scene with the cameras that show it.

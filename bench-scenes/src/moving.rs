@@ -1,28 +1,22 @@
 //! Scenes that move: a scene for each frame.
 
 use std::ops::Range;
-use std::path::Path;
 
 use glam::Vec3;
-use metaball_core::{Aabb, Camera, Kernel, Metaball, Scene};
+use metaball_core::{Aabb, Camera, Metaball, Scene};
+use particle_files::{Overrides, PackedFrames, Sequence, framing};
 
-use crate::cameras::framing;
 use crate::error::LoadError;
 use crate::exact::turn;
-use crate::file::{self, FileKind};
 use crate::generate::{self, Recipe};
 use crate::known::KnownScene;
-use crate::load::{Overrides, open_scene_file, overridden, particles_in, scene_of};
-use crate::numbered::NumberedPath;
-use crate::packed_frames::PackedFrames;
-use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
 use crate::{generators, known};
 
 /// Frames to a second of generated motion and of the scene `splash`. The molecule's motion has no time of
 /// its own, and users' frames have the time that they say.
 pub const FRAME_RATE: u32 = 24;
 
-/// Frames of the molecule's motion until it comes round.
+/// Frames of a period of the molecule's motion.
 const SWAY: u32 = 96;
 
 /// A scene that moves. Frames are independent of each other: any can be had, in any order and from
@@ -35,7 +29,7 @@ pub struct Moving {
     pub about: String,
     /// A camera that sees all frames.
     pub camera: Camera,
-    /// The frames there are; of a motion that goes on for ever, the first few seconds.
+    /// The frames there are; of a motion without end, the first few seconds.
     pub frames: Range<u32>,
     motion: Motion,
     overrides: Overrides,
@@ -44,21 +38,12 @@ pub struct Moving {
 /// Where frames come from.
 #[derive(Debug)]
 enum Motion {
-    /// For ever.
+    /// Without end.
     Generated { recipe: Recipe, scale: f64 },
-    /// For ever, round and round: a still scene and how far its balls go.
+    /// Without end, periodic: a still scene and how far its balls go.
     Swaying { rest: Scene, modes: PackedFrames },
-    /// Frames of equal balls.
-    Packed { frames: PackedFrames, kernel: Kernel, threshold: f32 },
-    /// A file for each frame. Where files leave the radius to the particles' spacing, all frames have
-    /// the same: a surface does not breathe, and shaders are made once.
-    Files {
-        files: NumberedPath,
-        kind: FileKind,
-        kernel: Kernel,
-        threshold: f32,
-        spaced_radius: Option<f32>,
-    },
+    /// Files.
+    Sequence(Sequence),
 }
 
 /// The moving scenes that have a name, each with one sentence on what it shows. Generators that
@@ -73,34 +58,21 @@ pub fn moving() -> &'static [(&'static str, &'static str)] {
 }
 
 impl Moving {
-    /// The moving scene of a spec: a name of [`moving()`], the spec of a generator that moves, a
-    /// particle file for each frame (`fluid-%04d.xyz`), a scene file that names such particles, or a
-    /// `.frames` file. The numbers of files are those of frames.
-    ///
-    /// The camera of files is the scene file's, or one that frames the first and the last of them. Where
-    /// they leave the radius to the particles' spacing, that of the first readable file is every frame's.
+    /// The moving scene of a spec: a name of [`moving()`], the spec of a generator that moves, or the path
+    /// of a [`Sequence`].
     ///
     /// # Errors
     /// As [`load`](crate::load()); and where the spec's scene does not move.
     pub fn load(spec: &str, overrides: &Overrides) -> Result<Self, LoadError> {
-        let path = Path::new(spec);
         let named = moving().iter().find(|(name, _)| *name == spec);
-        let mut moving = if let Some((name, about)) = named {
+        let moving = if let Some((name, about)) = named {
             Self { name: (*name).to_owned(), about: (*about).to_owned(), ..of_name(name)? }
         } else if let Some(recipe) = generate::parse(spec)? {
             Self::generated(recipe)?
         } else {
-            match FileKind::of(path) {
-                Some(FileKind::Frames) => Self::packed(spec, &file::read(path)?)?,
-                Some(FileKind::SceneFile) => Self::of_scene_file(path)?,
-                Some(kind) if spec.contains('%') => {
-                    Self::files(path, kind, DEFAULT_KERNEL, DEFAULT_THRESHOLD, None)?
-                }
-                _ => return Err(still(spec)),
-            }
+            Self::of_sequence(open_sequence(spec)?)
         };
-        moving.overrides = *overrides;
-        Ok(moving)
+        Ok(Self { overrides: *overrides, ..moving })
     }
 
     /// The balls of a frame.
@@ -108,7 +80,7 @@ impl Moving {
     /// # Errors
     /// When there is no such frame, or its file cannot be used: names it.
     pub fn frame(&self, number: u32) -> Result<Scene, LoadError> {
-        overridden(self.motion.frame(number)?, &self.overrides)
+        Ok(self.overrides.apply(self.motion.frame(number)?)?)
     }
 
     /// The numbers of frames in a range for which there is something to draw: of a sequence of files
@@ -118,91 +90,34 @@ impl Moving {
     /// When the files' folder cannot be read.
     pub fn present(&self, range: Range<u32>) -> Result<Vec<u32>, LoadError> {
         match &self.motion {
-            Motion::Files { files, .. } => {
-                let numbers = numbers(files)?;
-                Ok(numbers.into_iter().filter(|number| range.contains(number)).collect())
-            }
-            Motion::Packed { frames, .. } => {
-                Ok((range.start..range.end.min(frames.len())).collect())
-            }
+            Motion::Sequence(sequence) => Ok(sequence.present(range)?),
             Motion::Generated { .. } | Motion::Swaying { .. } => Ok(range.collect()),
         }
     }
 
-    fn new(
-        name: String,
-        motion: Motion,
-        frames: Range<u32>,
-        seen_from: Vec3,
-        seen: &[u32],
-    ) -> Result<Self, LoadError> {
-        let mut bounds = Aabb::EMPTY;
-        for number in seen {
-            bounds = bounds.union(&motion.frame(*number)?.bounds());
-        }
-        Ok(Self {
-            about: format!("The frames of {name}."),
-            name,
-            camera: framing(&bounds, seen_from),
-            frames,
-            motion,
-            overrides: Overrides::default(),
-        })
+    fn new(name: String, motion: Motion, frames: Range<u32>, camera: Camera) -> Self {
+        let about = format!("The frames of {name}.");
+        Self { name, about, camera, frames, motion, overrides: Overrides::default() }
     }
 
     fn generated(recipe: Recipe) -> Result<Self, LoadError> {
-        let (name, seen_from) = (recipe.name(), recipe.seen_from());
+        let name = recipe.name();
         if !recipe.generator().moves() {
             return Err(still(&name));
         }
+        let seen_from = recipe.seen_from();
         let motion = Motion::Generated { scale: recipe.scale(), recipe };
-        let seconds = [0, 1, 2, 3].map(|second| second * FRAME_RATE);
-        Self::new(name, motion, 0..4 * FRAME_RATE, seen_from, &seconds)
-    }
-
-    fn packed(name: &str, bytes: &[u8]) -> Result<Self, LoadError> {
-        let frames = PackedFrames::parse(bytes).map_err(|flaw| flaw.in_file(name))?;
-        let all: Vec<u32> = (0..frames.len()).collect();
-        let motion =
-            Motion::Packed { frames, kernel: DEFAULT_KERNEL, threshold: DEFAULT_THRESHOLD };
-        let range = 0..all.len() as u32;
-        Self::new(name.to_owned(), motion, range, Vec3::new(0.4, 0.3, 1.0), &all)
-    }
-
-    fn of_scene_file(path: &Path) -> Result<Self, LoadError> {
-        let (scene_file, table, kind) = open_scene_file(path)?;
-        let name = path.display().to_string();
-        if !scene_file.particles.contains('%') {
-            return Err(still(&name));
+        let mut bounds = Aabb::EMPTY;
+        for second in 0..4 {
+            bounds = bounds.union(&motion.frame(second * FRAME_RATE)?.bounds());
         }
-        let crate::scene_file::SceneFile { kernel, threshold, camera, .. } = scene_file;
-        Ok(Self { name, ..Self::files(&table, kind, kernel, threshold, camera)? })
+        Ok(Self::new(name, motion, 0..4 * FRAME_RATE, framing(&bounds, seen_from)))
     }
 
-    fn files(
-        path: &Path,
-        kind: FileKind,
-        kernel: Kernel,
-        threshold: f32,
-        camera: Option<Camera>,
-    ) -> Result<Self, LoadError> {
-        let name = path.display().to_string();
-        let files: NumberedPath = name.parse()?;
-        let numbers = numbers(&files)?;
-        let (Some(first), Some(last)) = (numbers.first(), numbers.last()) else {
-            return Err(LoadError::Parameter {
-                name,
-                needed: "at least one file of this name".to_owned(),
-                found: "none".to_owned(),
-            });
-        };
-        let seen = if camera.is_some() { vec![] } else { vec![*first, *last] };
-        let readable = |number: &u32| particles_in(&files.path(*number), kind).ok();
-        let spaced_radius = numbers.iter().find_map(readable).and_then(|first| first.spaced_radius);
-        let motion = Motion::Files { files, kind, kernel, threshold, spaced_radius };
-        let range = *first..last.saturating_add(1);
-        let framed = Self::new(name, motion, range, Vec3::new(0.4, 0.3, 1.0), &seen)?;
-        Ok(Self { camera: camera.unwrap_or(framed.camera), ..framed })
+    fn of_sequence(sequence: Sequence) -> Self {
+        let (name, camera) = (sequence.name().to_owned(), *sequence.camera());
+        let frames = sequence.frames();
+        Self::new(name, Motion::Sequence(sequence), frames, camera)
     }
 }
 
@@ -213,35 +128,16 @@ impl Motion {
                 recipe.at(f64::from(number) / f64::from(FRAME_RATE), *scale)
             }
             Self::Swaying { rest, modes } => swayed(rest, modes, number),
-            Self::Packed { frames, kernel, threshold } => {
-                if number >= frames.len() {
-                    return Err(LoadError::Parameter {
-                        name: "frame".to_owned(),
-                        needed: format!("a number below {}", frames.len()),
-                        found: number.to_string(),
-                    });
-                }
-                let balls = frames.frame(number).balls;
-                Ok(Scene::new(balls, *kernel, *threshold)?)
-            }
-            Self::Files { files, kind, kernel, threshold, spaced_radius } => {
-                let path = files.path(number);
-                let particles = particles_in(&path, *kind)?;
-                let particles = match spaced_radius {
-                    Some(radius) => particles.respaced(*radius),
-                    None => particles,
-                };
-                scene_of(particles, &path, *kernel, *threshold)
-            }
+            Self::Sequence(sequence) => Ok(sequence.frame(number)?),
         }
     }
 }
 
-/// Every ball at its place of rest plus its share of each mode, the softest of which swings once
-/// while the motion comes round, the next twice, and so on: at frame 0 all are at rest.
+/// Every ball at its position of rest plus its share of each mode, the softest of which swings once
+/// in a period of the motion, the next twice, and so on: at frame 0 all are at rest.
 fn swayed(rest: &Scene, modes: &PackedFrames, number: u32) -> Result<Scene, LoadError> {
     let mut balls: Vec<Metaball> = rest.balls().collect();
-    for mode in 0..modes.len() {
+    for mode in 0..modes.count() {
         let phase = (mode + 1) * (number % SWAY);
         let swing = turn(f64::from(phase) / f64::from(SWAY)).y as f32;
         for (ball, displaced) in balls.iter_mut().zip(modes.frame(mode).balls) {
@@ -258,24 +154,22 @@ fn swayed(rest: &Scene, modes: &PackedFrames, number: u32) -> Result<Scene, Load
 fn of_name(name: &str) -> Result<Moving, LoadError> {
     match name {
         "splash" => {
-            let splash = Moving::packed("splash.frames", include_bytes!("../data/splash.frames"))?;
-            // The tank seen from its front, with room for what climbs its right wall.
+            let frames = PackedFrames::parse(include_bytes!("../data/splash.frames"))?;
+            let splash = Sequence::packed("splash.frames", frames, &Overrides::default())?;
+            // The tank seen from its front, with space for what climbs its right wall.
             let camera = Camera::look_at(
                 Vec3::new(2.0, 1.5, 3.4),
                 Vec3::new(0.86, 0.62, 0.45),
                 Vec3::Y,
                 38.0,
             )?;
-            Ok(Moving { camera, ..splash })
+            Ok(Moving { camera, ..Moving::of_sequence(splash) })
         }
         "molecule" => {
-            const MODES: &str = "md_1u19-modes.frames";
-            let bytes = include_bytes!("../data/md_1u19-modes.frames");
-            let modes = PackedFrames::parse(bytes).map_err(|flaw| flaw.in_file(MODES))?;
+            let modes = PackedFrames::parse(include_bytes!("../data/md_1u19-modes.frames"))?;
             let still = crate::load(name, &Overrides::default())?;
             let motion = Motion::Swaying { rest: still.scene, modes };
-            let sway = Moving::new(name.to_owned(), motion, 0..SWAY, Vec3::X, &[])?;
-            Ok(Moving { camera: still.camera, ..sway })
+            Ok(Moving::new(name.to_owned(), motion, 0..SWAY, still.camera))
         }
         _ => match known().iter().find(|known| known.name == name).and_then(KnownScene::spec) {
             Some(spec) => generate::parse(spec)?.map_or(Err(still(name)), Moving::generated),
@@ -284,9 +178,12 @@ fn of_name(name: &str) -> Result<Moving, LoadError> {
     }
 }
 
-fn numbers(files: &NumberedPath) -> Result<Vec<u32>, LoadError> {
-    let file = files.path(0).parent().map(Path::to_owned).unwrap_or_default();
-    files.numbers().map_err(|source| LoadError::Read { file: file.display().to_string(), source })
+fn open_sequence(spec: &str) -> Result<Sequence, LoadError> {
+    use particle_files::LoadError::{NotASequence, UnknownFormat};
+    Sequence::open(spec, &Overrides::default()).map_err(|error| match error {
+        NotASequence { file } | UnknownFormat { file, .. } => still(&file),
+        error => error.into(),
+    })
 }
 
 fn still(spec: &str) -> LoadError {

@@ -30,7 +30,7 @@ pub(crate) fn one(kernel: Kernel) -> Result<Shot, LoadError> {
 
 /// One power ball; `exponent` from 1 to 8.
 pub(crate) fn one_power(exponent: i64) -> Result<Shot, LoadError> {
-    one(crate::kernel_named("power", Some(exponent))?)
+    one(particle_files::kernel_named("power", Some(exponent))?)
 }
 
 pub(crate) fn two_merging() -> Result<Shot, LoadError> {

@@ -114,56 +114,20 @@ fn the_splash_obeys_gravity() {
 }
 
 #[test]
-fn numbered_files_are_frames() {
+fn numbered_files_move() {
     let folder = folder("numbered");
     for number in [3, 5, 8] {
         let table = format!("x,y,z,radius\n{number},0,0,1\n");
         fs::write(folder.join(format!("p-{number:03}.csv")), table).expect("writable");
     }
     let files = folder.join("p-%03d.csv").display().to_string();
-    let moving = get(&files).expect("legal");
-    assert_eq!(moving.frames, 3..9);
+    let wyvill = Overrides { kernel: Some(Kernel::Wyvill), ..Overrides::default() };
+    let moving = Moving::load(&files, &wyvill).expect("legal");
+    assert_eq!((moving.name.as_str(), moving.frames.clone()), (files.as_str(), 3..9));
     assert_eq!(moving.present(0..6).expect("a folder"), [3, 5]);
-    assert_eq!(moving.frame(5).expect("a file").supports()[0].center, Vec3::new(5.0, 0.0, 0.0));
-    let missing = moving.frame(4).expect_err("no file").to_string();
-    assert!(missing.starts_with("cannot read ") && missing.ends_with("p-004.csv"), "{missing}");
-    fs::write(folder.join("p-005.csv"), "x,y,z,radius\n0,0,0,much\n").expect("writable");
-    let broken = moving.frame(5).expect_err("no number").to_string();
-    assert!(broken.contains("p-005.csv, line 2"), "{broken}");
-
-    let text = "particles = 'p-%03d.csv'\nkernel = 'wyvill'\nthreshold = 0.5\n[camera]\n\
-                eye = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
-    let file = folder.join("scene.toml");
-    fs::write(&file, text).expect("writable");
-    let moving = get(&file.display().to_string()).expect("legal");
-    assert_eq!(moving.camera.eye(), Vec3::new(0.0, 0.0, 5.0));
-    assert_eq!(moving.frame(3).expect("a file").kernel(), Kernel::Wyvill);
-}
-
-#[test]
-fn frames_without_radii_have_that_of_the_first() {
-    let folder = folder("spaced");
-    let write = |number: u32, spacing: u32| {
-        let table = format!("3\n\nbead 0 0 0\nbead {spacing} 0 0\nbead {} 0 0\n", 2 * spacing);
-        fs::write(folder.join(format!("p{number}.xyz")), table).expect("writable");
-    };
-    write(2, 3);
-    write(3, 5);
-    let text = "particles = 'p%d.xyz'\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
-    fs::write(folder.join("scene.toml"), text).expect("writable");
-    let radius = |number| {
-        let moving = get(&folder.join("scene.toml").display().to_string()).expect("legal");
-        moving.frame(number).expect("a file").supports()[0].radius
-    };
-    assert_eq!([2, 3].map(radius), [6.0, 6.0], "twice the spacing in the first");
-    fs::write(folder.join("p1.xyz"), "broken").expect("writable");
-    assert_eq!([2, 3].map(radius), [6.0, 6.0], "the first that can be read");
-    write(1, 5);
-    assert_eq!([2, 3].map(radius), [10.0, 10.0]);
-    // What says its radius keeps it.
-    let own = "1\nProperties=pos:R:3:radius:R:1\n0 0 0 0.5\n";
-    fs::write(folder.join("p4.xyz"), own).expect("writable");
-    assert_eq!(radius(4), 0.5);
+    let frame = moving.frame(5).expect("a file");
+    assert_eq!(frame.supports()[0].center, Vec3::new(5.0, 0.0, 0.0));
+    assert_eq!(frame.kernel(), Kernel::Wyvill);
 }
 
 #[test]

@@ -1,11 +1,9 @@
 //! The known scenes as users get them.
 
-use bench_scenes::{
-    BenchScene, DEFAULT_KERNEL, DEFAULT_THRESHOLD, Kind, Overrides, generators, kernel_named,
-    known, load, mean_overlap,
-};
+use bench_scenes::{BenchScene, Kind, Overrides, generators, known, load, mean_overlap};
 use glam::DVec3;
 use metaball_core::{Color, Kernel, Scene};
+use particle_files::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, kernel_named};
 
 fn scene(spec: &str) -> BenchScene {
     load(spec, &Overrides::default()).expect("a known scene")

@@ -53,7 +53,7 @@ pub(super) fn strength(value: f64) -> Result<Shot, LoadError> {
 }
 
 pub(super) fn exponent(value: f64) -> Result<Shot, LoadError> {
-    let kernel = crate::kernel_named("power", Some(value.round() as i64))?;
+    let kernel = particle_files::kernel_named("power", Some(value.round() as i64))?;
     Ok((pair(0.4)?.with_kernel(kernel), looking(Vec3::new(1.2, 0.9, 4.0), Vec3::ZERO)?))
 }
 

@@ -14,8 +14,9 @@ mod tornado;
 
 use glam::Vec3;
 use metaball_core::{Aabb, Camera, Kernel, Metaball, Scene};
+use particle_files::framing;
 
-use crate::cameras::{come_near, framing, walk_around};
+use crate::cameras::{come_near, walk_around};
 use crate::density::{Placed, scale_for};
 use crate::error::LoadError;
 use crate::random::Random;

@@ -8,8 +8,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{bail, ensure};
-use bench_scenes::{Moving, NumberedPath};
+use bench_scenes::Moving;
 use metaball_core::View;
+use particle_files::NumberedPath;
 
 use crate::animate::pipeline::{Job, Outcome};
 use crate::animate::report::Report;

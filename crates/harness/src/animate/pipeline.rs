@@ -19,9 +19,10 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use bench_scenes::{LoadError, Moving, NumberedPath};
+use bench_scenes::{LoadError, Moving};
 use metaball_core::gpu::{self, Gpu, Image, IsoRenderer, Shading, Targets};
 use metaball_core::{Scene, View};
+use particle_files::NumberedPath;
 use serde::Serialize;
 
 use crate::frame_png::encode_described;

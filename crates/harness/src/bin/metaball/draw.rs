@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use anyhow::{Context, ensure};
-use bench_scenes::{NumberedPath, Overrides};
+use bench_scenes::Overrides;
 use clap::Args;
 use harness::animate::{self, animate};
 use harness::auto::MAX_ERROR;
@@ -16,6 +16,7 @@ use harness::picture::{color_of, picture_named};
 use harness::render::{Choosing, Device, Drawing, Order, render};
 use metaball_core::Color;
 use metaball_core::gpu::Picture;
+use particle_files::NumberedPath;
 
 use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
 use crate::shared::PictureArgs;

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use bench_scenes::{LoadError, kernel_named};
 use metaball_core::Kernel;
+use particle_files::{LoadError, kernel_named};
 
 /// Pixels across and down.
 pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {

@@ -1,4 +1,4 @@
-//! Frames of a particle simulation with positions of 16 bits: the format `.balls`.
+//! Equal balls with positions of 16 bits: the format `.balls`, for a frame of a particle simulation.
 //!
 //! The file starts with the eight bytes `balls16\n`; the rest is a zlib stream of little-endian
 //! numbers without padding:
@@ -31,10 +31,10 @@ const MAGIC: &[u8; 8] = b"balls16\n";
 /// Writes a scene's balls in the format of `.balls` files, described at the top of this file.
 ///
 /// # Errors
-/// When radii differ, or the scene has strengths or colours: the format has no room for them.
-pub fn quantize(scene: &Scene) -> Result<Vec<u8>, LoadError> {
+/// When radii differ, or the scene has strengths or colours: the format does not hold them.
+pub fn pack_balls(scene: &Scene) -> Result<Vec<u8>, LoadError> {
     let refused = |found: &str| LoadError::Parameter {
-        name: "quantised frame".to_owned(),
+        name: "balls to pack".to_owned(),
         needed: "balls of one radius, without strengths or colours".to_owned(),
         found: found.to_owned(),
     };
@@ -74,7 +74,7 @@ fn compress(plain: &[u8]) -> Vec<u8> {
 }
 
 /// Reads a `.balls` file.
-pub(crate) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
+pub(super) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
     let stream = bytes
         .strip_prefix(MAGIC)
         .ok_or_else(|| Flaw::needed("the first bytes \"balls16\\n\"", "others"))?;
@@ -125,7 +125,7 @@ mod tests {
     fn scenes_with_more_than_centres_are_refused() {
         let balls = [Metaball::new(Vec3::ZERO, 1.0), Metaball::new(Vec3::ZERO, 2.0)];
         let scene = Scene::new(balls, Kernel::QUARTIC, 0.25).expect("legal");
-        let error = quantize(&scene).expect_err("refused").to_string();
+        let error = pack_balls(&scene).expect_err("refused").to_string();
         assert!(error.ends_with("without strengths or colours, found several radii"));
     }
 
@@ -150,7 +150,7 @@ mod tests {
         fn centres_move_by_half_a_step(
             centers in prop::collection::vec(prop::array::uniform3(-100.0f32..100.0), 0..50),
         ) {
-            let read = parse(&quantize(&scene(&centers)).expect("legal")).expect("legal");
+            let read = parse(&pack_balls(&scene(&centers)).expect("legal")).expect("legal");
             prop_assert_eq!(read.balls.len(), centers.len());
             for (ball, center) in read.balls.iter().zip(&centers) {
                 let moved = (ball.center - Vec3::from_array(*center)).abs().max_element();

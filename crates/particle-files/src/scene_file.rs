@@ -12,24 +12,51 @@
 //! vertical_fov_degrees = 38.0 # default: this
 //! ```
 
+use std::path::{Path, PathBuf};
+
 use glam::Vec3;
 use metaball_core::{Camera, Kernel};
 use serde::Deserialize;
 use toml::Spanned;
 
 use crate::error::{Flaw, LoadError};
-use crate::load::kernel_named;
+use crate::file;
+use crate::formats::Format;
+use crate::overrides::kernel_named;
 use crate::particles::DEFAULT_THRESHOLD;
+use crate::text::text;
 
 /// What a scene file says.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SceneFile {
-    /// Path of the particle file, as written.
-    pub(crate) particles: String,
+    /// Path of the particle file: as written, or from where the scene file is once that is known.
+    pub(crate) particles: PathBuf,
     pub(crate) kernel: Kernel,
     pub(crate) threshold: f32,
     /// `None` for one that frames the particles.
     pub(crate) camera: Option<Camera>,
+}
+
+impl SceneFile {
+    /// What the name of a scene file ends in.
+    pub(crate) const ENDING: &'static str = "toml";
+
+    /// Reads a scene file. The particle file that it names is one by its ending; it is not opened.
+    pub(crate) fn open(path: &Path) -> Result<Self, LoadError> {
+        let named = path.display().to_string();
+        let bytes = file::read(path)?;
+        let scene_file = text(&bytes).and_then(parse).map_err(|flaw| flaw.in_file(&named))?;
+        if Format::of(&scene_file.particles).is_none() {
+            let mut endings: Vec<String> = Format::endings().collect();
+            let last = endings.pop().unwrap_or_default();
+            let needed =
+                format!("a {} or {last} file, or one of these with .gz", endings.join(", "));
+            let flaw = Flaw::needed(&needed, format_args!("{:?}", scene_file.particles));
+            return Err(flaw.at_key("particles").in_file(&named));
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Ok(Self { particles: folder.join(&scene_file.particles), ..scene_file })
+    }
 }
 
 #[derive(Deserialize)]
@@ -61,8 +88,8 @@ fn field_of_view() -> f32 {
     38.0
 }
 
-/// Reads a scene file's text. The particle file is not looked at.
-pub(crate) fn parse(text: &str) -> Result<SceneFile, Flaw> {
+/// Reads a scene file's text.
+fn parse(text: &str) -> Result<SceneFile, Flaw> {
     let keys: Keys = toml::from_str(text).map_err(|error| {
         let flaw = Flaw::new(error.message());
         match error.span() {
@@ -83,7 +110,7 @@ pub(crate) fn parse(text: &str) -> Result<SceneFile, Flaw> {
         kernel: kernel(&keys, text)?,
         threshold,
         camera: keys.camera.as_ref().map(|camera| camera_of(camera, text)).transpose()?,
-        particles: keys.particles,
+        particles: keys.particles.into(),
     })
 }
 
@@ -142,7 +169,7 @@ vertical_fov_degrees = 40
         assert_eq!(
             file,
             SceneFile {
-                particles: "pool.csv".to_owned(),
+                particles: "pool.csv".into(),
                 kernel: Kernel::power(3).expect("legal"),
                 threshold: 0.2,
                 camera: camera.ok(),

@@ -1,14 +1,14 @@
-//! Users' own files, through the file system.
+//! Files of one scene, through the file system.
 
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-use bench_scenes::{BenchScene, LoadError, Overrides, load, quantize};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use glam::Vec3;
 use metaball_core::Kernel;
+use particle_files::{LoadError, Loaded, Overrides, load, pack_balls};
 
 /// A folder for one test, of that name.
 fn folder(test: &str) -> PathBuf {
@@ -29,7 +29,7 @@ fn packed(text: &str) -> Vec<u8> {
     encoder.finish().expect("a Vec takes all bytes")
 }
 
-fn get(path: &str) -> Result<BenchScene, LoadError> {
+fn get(path: &str) -> Result<Loaded, LoadError> {
     load(path, &Overrides::default())
 }
 
@@ -57,7 +57,7 @@ fn bare_particle_files_are_scenes() {
     let xyz = get(&write("bare", "a.xyz.gz", packed("1\n\nO 0 0 0\n"))).expect("legal");
     assert!(xyz.scene.colors().is_some());
 
-    let frame = quantize(&table.scene).expect("legal");
+    let frame = pack_balls(&table.scene).expect("legal");
     let read = get(&write("bare", "a.balls", frame)).expect("legal");
     assert_eq!(read.scene.supports(), table.scene.supports());
 }
@@ -83,4 +83,23 @@ fn refusals_name_the_file_that_is_at_fault() {
 
     let cut = get(&write("refusals", "cut.csv.gz", &packed(TABLE)[..20])).expect_err("refused");
     assert!(matches!(cut, LoadError::Read { .. }), "{cut}");
+}
+
+#[test]
+fn what_is_no_file_of_a_scene_says_so() {
+    let unknown = get("a.doc").expect_err("refused");
+    assert!(matches!(unknown, LoadError::UnknownFormat { .. }));
+    let endings = ".csv, .xyz, .pdb, .ent, .cif, .mmcif, .balls";
+    assert!(unknown.to_string().contains(endings), "{unknown}");
+    let frames = get("a.frames").expect_err("refused").to_string();
+    let expected = "a.frames: needed the particles of one scene, found those of many frames";
+    assert_eq!(frames, expected);
+}
+
+#[test]
+fn bytes_of_a_name_are_read_as_the_file_is() {
+    let parsed = particle_files::parse("a.csv.gz", &packed(TABLE)).expect("legal");
+    assert_eq!(parsed.balls.len(), 2);
+    let read = particle_files::read(write("bytes", "a.csv.gz", packed(TABLE))).expect("legal");
+    assert_eq!((read.balls, read.lines), (parsed.balls, parsed.lines));
 }

@@ -1,6 +1,5 @@
 //! File names with a number in them: `frame-%04d.xyz`.
 
-use std::io;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -27,12 +26,14 @@ impl NumberedPath {
     ///
     /// # Errors
     /// When the folder cannot be read.
-    pub fn numbers(&self) -> io::Result<Vec<u32>> {
+    pub fn numbers(&self) -> Result<Vec<u32>, LoadError> {
         let here = Path::new(".");
         let folder = if self.folder.as_os_str().is_empty() { here } else { &self.folder };
+        let refused = |source| LoadError::Read { file: folder.display().to_string(), source };
         let mut numbers = Vec::new();
-        for entry in std::fs::read_dir(folder)? {
-            numbers.extend(entry?.file_name().to_str().and_then(|name| self.number(name)));
+        for entry in std::fs::read_dir(folder).map_err(refused)? {
+            let name = entry.map_err(refused)?.file_name();
+            numbers.extend(name.to_str().and_then(|name| self.number(name)));
         }
         numbers.sort_unstable();
         Ok(numbers)

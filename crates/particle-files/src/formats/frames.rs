@@ -1,4 +1,4 @@
-//! Frames of equal balls with positions of 16 bits: the format `.frames`.
+//! Frames of equal balls with positions of 16 bits: the format `.frames`, for a sequence in one file.
 //!
 //! The file starts with the nine bytes `frames16\n`; the rest is a zlib stream of little-endian
 //! numbers without padding:
@@ -13,7 +13,7 @@
 //!
 //! then for each frame, and in it for x, y and z, `count` numbers u16, first all their low bytes, then
 //! all their high ones. A ball's number is its steps from the least corner, less what they would be had
-//! it gone on as between the two frames before, modulo 2¹⁶: 2a − b where it was at a one frame before
+//! it continued as between the two frames before, modulo 2¹⁶: 2a − b where it was at a one frame before
 //! and at b two before; a in the second frame, 0 in the first.
 //!
 //! Strengths are 1 and there are no colours. A centre moves by at most half a step on every axis.
@@ -34,9 +34,9 @@ const MAGIC: &[u8; 9] = b"frames16\n";
 /// Bytes before the first frame: seven numbers of four.
 const HEADER: usize = 28;
 
-/// Frames of equal balls, unpacked but for the rounding of their places.
+/// The frames of a `.frames` file, described at the top of this file: equal balls, positions rounded.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PackedFrames {
+pub struct PackedFrames {
     radius: f32,
     step: f32,
     least: Vec3,
@@ -46,7 +46,7 @@ pub(crate) struct PackedFrames {
 }
 
 /// Writes frames in the format of `.frames` files, described at the top of this file. All balls have
-/// the support radius; places are rounded to multiples of `step`. Both are in scene units.
+/// the support radius; positions are rounded to multiples of `step`. Both are in scene units.
 ///
 /// # Errors
 /// When there is no frame, frames differ in their number of balls, or the box around all centres is
@@ -74,11 +74,11 @@ pub fn pack_frames(radius: f32, step: f32, frames: &[Vec<Vec3>]) -> Result<Vec<u
         plain.extend(number.to_le_bytes());
     }
     let mut before = vec![[0_u16; 2]; 3 * balls];
-    for (frame, places) in frames.iter().enumerate() {
+    for (frame, centers) in frames.iter().enumerate() {
         for axis in 0..3 {
             let column = &mut before[axis * balls..][..balls];
-            let steps = places.iter().zip(column).map(|(place, before)| {
-                let away = f64::from(place[axis]) - f64::from(least[axis]);
+            let steps = centers.iter().zip(column).map(|(center, before)| {
+                let away = f64::from(center[axis]) - f64::from(least[axis]);
                 let steps = (away / f64::from(step)).round() as u16;
                 let difference = steps.wrapping_sub(expected(frame, *before));
                 *before = [steps, before[0]];
@@ -92,7 +92,7 @@ pub fn pack_frames(radius: f32, step: f32, frames: &[Vec<Vec3>]) -> Result<Vec<u
     Ok(compress(&plain))
 }
 
-/// Steps of a ball had it gone on as between the last frame and the one before that.
+/// Steps of a ball had it continued as between the last frame and the one before that.
 fn expected(frame: usize, [last, before]: [u16; 2]) -> u16 {
     if frame < 2 { last } else { last.wrapping_add(last.wrapping_sub(before)) }
 }
@@ -103,8 +103,18 @@ fn compress(plain: &[u8]) -> Vec<u8> {
 }
 
 impl PackedFrames {
-    /// Reads a `.frames` file.
-    pub(crate) fn parse(bytes: &[u8]) -> Result<Self, Flaw> {
+    /// What the name of such a file ends in.
+    pub(crate) const ENDING: &'static str = "frames";
+
+    /// Reads the bytes of a `.frames` file.
+    ///
+    /// # Errors
+    /// [`LoadError::Content`].
+    pub fn parse(bytes: &[u8]) -> Result<Self, LoadError> {
+        Ok(Self::content(bytes)?)
+    }
+
+    pub(crate) fn content(bytes: &[u8]) -> Result<Self, Flaw> {
         let stream = bytes
             .strip_prefix(MAGIC)
             .ok_or_else(|| Flaw::needed("the first bytes \"frames16\\n\"", "others"))?;
@@ -142,19 +152,25 @@ impl PackedFrames {
     }
 
     /// Number of frames; none without balls.
-    pub(crate) fn len(&self) -> u32 {
+    pub fn count(&self) -> u32 {
         (self.steps.len() / (3 * self.balls).max(1)) as u32
     }
 
-    /// The balls of a frame that there is.
-    pub(crate) fn frame(&self, number: u32) -> Particles {
+    /// The balls of a frame.
+    ///
+    /// # Panics
+    /// When there is no frame of that number, counted from 0.
+    pub fn frame(&self, number: u32) -> Particles {
         let frame = &self.steps[number as usize * 3 * self.balls..][..3 * self.balls];
-        let place = |ball: usize, axis: usize| {
+        let coordinate = |ball: usize, axis: usize| {
             let steps = f64::from(frame[axis * self.balls + ball]);
             (f64::from(self.least[axis]) + steps * f64::from(self.step)) as f32
         };
         let ball = |ball| {
-            Metaball::new(Vec3::from_array([0, 1, 2].map(|axis| place(ball, axis))), self.radius)
+            Metaball::new(
+                Vec3::from_array([0, 1, 2].map(|axis| coordinate(ball, axis))),
+                self.radius,
+            )
         };
         Particles { balls: (0..self.balls).map(ball).collect(), ..Particles::default() }
     }
@@ -168,7 +184,7 @@ mod tests {
 
     #[test]
     fn refusals_say_what_was_needed() {
-        let problem = |bytes: &[u8]| PackedFrames::parse(bytes).expect_err("refused").problem;
+        let problem = |bytes: &[u8]| PackedFrames::content(bytes).expect_err("refused").problem;
         assert!(problem(b"").starts_with("needed the first bytes"));
         assert!(problem(b"frames16\nxxxx").starts_with("needed a zlib stream"));
         assert_eq!(problem(&compress(b"short")), "needed a header of 28 bytes, found 5");
@@ -189,7 +205,7 @@ mod tests {
     }
 
     proptest! {
-        /// Half a step, and the roundings to f32 of the place and of what it is compared with: twice
+        /// Half a step, and the roundings to f32 of the centre and of what it is compared with: twice
         /// 6e-8 of the greatest coordinate.
         #[test]
         fn centres_move_by_half_a_step(
@@ -201,8 +217,8 @@ mod tests {
             let frames: Vec<Vec<Vec3>> =
                 frames.iter().map(|frame| frame.map(Vec3::from_array).to_vec()).collect();
             let bytes = pack_frames(0.5, STEP, &frames).expect("legal");
-            let read = PackedFrames::parse(&bytes).expect("legal");
-            prop_assert_eq!(read.len() as usize, frames.len());
+            let read = PackedFrames::content(&bytes).expect("legal");
+            prop_assert_eq!(read.count() as usize, frames.len());
             for (number, centers) in frames.iter().enumerate() {
                 let balls = read.frame(number as u32).balls;
                 prop_assert_eq!(balls.len(), centers.len());
@@ -217,8 +233,8 @@ mod tests {
         #[test]
         fn no_bytes_panic(bytes in any::<Vec<u8>>()) {
             for bytes in [&bytes, &compress(&bytes), &[MAGIC, &bytes[..]].concat()] {
-                if let Ok(frames) = PackedFrames::parse(bytes) {
-                    (0..frames.len()).for_each(|number| drop(frames.frame(number)));
+                if let Ok(frames) = PackedFrames::content(bytes) {
+                    (0..frames.count()).for_each(|number| drop(frames.frame(number)));
                 }
             }
         }

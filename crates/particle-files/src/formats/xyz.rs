@@ -13,11 +13,13 @@ use pdbtbx::Element;
 use crate::elements::van_der_waals_radius;
 use crate::error::Flaw;
 use crate::molecule::{Atom, particles_of};
-use crate::particles::{Particles, median_spacing};
+use crate::particles::Particles;
+use crate::spacing::median_spacing;
+use crate::text::text;
 
 /// Reads the first frame.
-pub(crate) fn parse(text: &str) -> Result<Particles, Flaw> {
-    let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
+pub(super) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
+    let mut lines = text(bytes)?.lines().enumerate().map(|(index, line)| (index + 1, line));
     let (_, first) = lines.next().unwrap_or((1, ""));
     let count: usize = first.trim().parse().map_err(|_| {
         Flaw::needed("the number of particles", format_args!("{first:?}")).at_line(1)
@@ -61,7 +63,7 @@ fn particles(rows: &[Row]) -> Particles {
         }
         (_, spacing) => {
             let radius = spacing.map_or(1.0, |spacing| 2.0 * spacing);
-            Particles { spaced_radius: Some(radius), ..balls(&|_| radius) }
+            Particles { spacing_radius: Some(radius), ..balls(&|_| radius) }
         }
     }
 }
@@ -143,16 +145,16 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::molecule::SUPPORT_OVER_VAN_DER_WAALS;
+    use crate::SUPPORT_OVER_VAN_DER_WAALS;
 
     fn refusal(text: &str) -> String {
-        parse(text).expect_err("refused").in_file("balls.xyz").to_string()
+        parse(text.as_bytes()).expect_err("refused").in_file("balls.xyz").to_string()
     }
 
     #[test]
     fn elements_make_a_molecule() {
         let water = "3\nwater\nO 0 0 0\nH 0.96 0 0\n1 -0.24 0.93 0\n";
-        let particles = parse(water).expect("legal");
+        let particles = parse(water.as_bytes()).expect("legal");
         // Alvarez: 1.50 Å for oxygen, 1.20 Å for hydrogen.
         let radii: Vec<f32> = particles.balls.iter().map(|ball| ball.radius).collect();
         let expected = [1.5, 1.2, 1.2].map(|radius| radius * SUPPORT_OVER_VAN_DER_WAALS);
@@ -164,24 +166,24 @@ mod tests {
     #[test]
     fn particles_that_are_no_atoms_take_their_spacing() {
         for text in ["2\n\nbead 0 0 0\nbead 3 0 0\n", "2\n\nW 0 0 0\nW 0.1 0 0\n"] {
-            let particles = parse(text).expect("legal");
+            let particles = parse(text.as_bytes()).expect("legal");
             assert_eq!(particles.balls[0].radius, 2.0 * particles.balls[1].center.x);
             assert_eq!(particles.colors, None);
         }
-        assert_eq!(parse("1\n\nbead 0 0 0\n").expect("legal").balls[0].radius, 1.0);
+        assert_eq!(parse(b"1\n\nbead 0 0 0\n").expect("legal").balls[0].radius, 1.0);
     }
 
     #[test]
-    fn properties_place_the_columns() {
+    fn properties_say_which_columns() {
         let text =
             "1\nLattice=\"1 0 0\" Properties=id:I:1:pos:R:3:Radius:R:1 time=0\n7 1 2 3 0.5 9\n";
-        let particles = parse(text).expect("legal");
+        let particles = parse(text.as_bytes()).expect("legal");
         assert_eq!(particles.balls, [Metaball::new(Vec3::new(1.0, 2.0, 3.0), 0.5)]);
     }
 
     #[test]
     fn only_the_first_frame_is_read() {
-        let particles = parse("1\n\nH 0 0 0\n1\n\nnonsense\n").expect("legal");
+        let particles = parse(b"1\n\nH 0 0 0\n1\n\nnonsense\n").expect("legal");
         assert_eq!(particles.balls.len(), 1);
     }
 
@@ -209,13 +211,18 @@ mod tests {
 
     proptest! {
         #[test]
+        fn no_bytes_panic(bytes in any::<Vec<u8>>()) {
+            let _ = parse(&bytes);
+        }
+
+        #[test]
         fn no_text_panics(text in any::<String>()) {
-            let _ = parse(&text);
+            let _ = parse(text.as_bytes());
         }
 
         #[test]
         fn no_frame_panics(text in "[0-3]\n(Properties=[a-z]*:[SR]:[0-9]{1,20})?[:a-zR0-9]{0,12}\n([CHW] [-0-9.e ]{0,20}\n){0,4}") {
-            let _ = parse(&text);
+            let _ = parse(text.as_bytes());
         }
     }
 }

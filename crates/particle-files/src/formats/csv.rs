@@ -12,7 +12,7 @@ use crate::particles::Particles;
 const COLUMNS: [&str; 8] = ["x", "y", "z", "radius", "strength", "red", "green", "blue"];
 
 /// Reads a table.
-pub(crate) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
+pub(super) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
     let header = Header::new(reader.headers().map_err(|error| flaw_of(&error, bytes))?)?;
     let mut particles = Particles::default();
@@ -34,7 +34,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
     Ok(particles)
 }
 
-/// Where each column of [`COLUMNS`] stands in the file, counted from 0.
+/// The index of each column of [`COLUMNS`] in the file.
 struct Header([Option<usize>; 8]);
 
 impl Header {

@@ -1,0 +1,22 @@
+//! Says what a file of particles holds:
+//!
+//! ```sh
+//! cargo run -p particle-files --example describe -- crates/particle-files/examples/water.xyz
+//! ```
+
+use std::error::Error;
+use std::io::{Write, stdout};
+
+use particle_files::{Overrides, load};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let path = std::env::args().nth(1).ok_or("needed FILE")?;
+    let loaded = load(path, &Overrides::default())?;
+    let (scene, bounds) = (&loaded.scene, loaded.scene.bounds());
+    let mut out = stdout().lock();
+    writeln!(out, "{}: {} balls", loaded.name, scene.len())?;
+    writeln!(out, "kernel {}, threshold {}", scene.kernel(), scene.threshold())?;
+    writeln!(out, "from {} to {}, support radii included", bounds.min, bounds.max)?;
+    writeln!(out, "seen from {}", loaded.camera.eye())?;
+    Ok(())
+}
