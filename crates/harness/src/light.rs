@@ -13,7 +13,7 @@ use image::{DynamicImage, ImageReader};
 use metaball_core::gpu::{Gpu, Image, IsoRenderer};
 use metaball_core::{Camera, Hit, NO_LIMIT, Scene, View};
 use metaball_light::{
-    Effects, Environment, Film, Floor, Lamp, Occlusion, Panorama, Studio, Surface,
+    Effects, Environment, Film, Floor, Lamp, Occlusion, Panorama, PathTracer, Surface,
 };
 
 use crate::camera::vector;
@@ -273,19 +273,20 @@ impl Lighting {
         mut after_sample: impl FnMut(),
     ) -> anyhow::Result<Lit> {
         let samples = self.samples;
-        let mut studio = Studio::new(gpu, scene, view, self.effects.clone(), samples, self.seed)?;
+        let mut tracer =
+            PathTracer::new(gpu, scene, view, self.effects.clone(), samples, self.seed)?;
         let start = Instant::now();
         for _ in 0..samples {
-            studio.expose(renderer)?;
+            tracer.add_sample(renderer)?;
             after_sample();
         }
         let ms = milliseconds(start.elapsed());
-        let mut film = studio.film()?;
+        let mut film = tracer.film()?;
         if let Some(strength) = self.depth_cue {
             film.cue_depth(hits, DEPTH_CUE_WIDTH, strength);
         }
         let image = film.develop(self.stops);
-        Ok(Lit { film, image, samples, ms, doubts: studio.doubts()? })
+        Ok(Lit { film, image, samples, ms, doubts: tracer.undecided()? })
     }
 }
 

@@ -158,11 +158,11 @@ impl Effects {
     /// Whether the view's first hits tell all: nothing is asked about the scene along further rays.
     pub fn end_at_first_surface(&self) -> bool {
         let is_opaque = matches!(self.surface, Surface::Opaque { .. });
-        is_opaque && self.bounces == 0 && !self.feel()
+        is_opaque && self.bounces == 0 && !self.need_shadow_rays()
     }
 
-    /// Whether surfaces send feelers.
-    pub(crate) fn feel(&self) -> bool {
+    /// Whether surfaces send shadow or occlusion rays.
+    pub(crate) fn need_shadow_rays(&self) -> bool {
         self.occlusion.is_some() || self.shadows && !self.lamps.is_empty()
     }
 

@@ -29,15 +29,19 @@
 //! error bound, not a tuned epsilon, at any scale.
 //!
 //! # Practice
-//! [`Studio::new`] prepares a view with its [`Effects`], [`Studio::expose`] adds a sample, and
-//! [`Studio::film`] is the picture so far in linear light.
+//! [`PathTracer::new`] prepares a view with its [`Effects`], [`PathTracer::add_sample`] adds a sample, and
+//! [`PathTracer::film`] is the picture so far in linear light.
 
+mod buffers;
 mod depth_cue;
 mod effects;
 mod film;
+mod passes;
+mod path_tracer;
 mod sampling;
-mod studio;
+mod twins;
+mod waves;
 
 pub use effects::{Effects, Environment, Floor, Lamp, Occlusion, Panorama, PanoramaError, Surface};
 pub use film::Film;
-pub use studio::Studio;
+pub use path_tracer::PathTracer;

@@ -1,31 +1,31 @@
-// What the passes of the crate metaball-light share: settings, lights, and one path of light a pixel,
-// followed from the eye backwards.
+// What the passes of the crate metaball-light share: settings, lamps, and one path of light a pixel,
+// followed backwards from the eye.
 #define_import_path metaball::effects::path
 
 #import metaball::free_ray::FreeRay
 #import metaball::hit::Hit
 #import metaball::listed::Listed
 
-// Twin of `Settings` in metaball-light.
+// Twin of `twins::Settings` in metaball-light.
 struct Settings {
     // exp(-absorption * length) passes through the fluid; 1/scene unit, linear red, green and blue.
     absorption: vec3<f32>,
     // Index of refraction; 0 for an opaque surface.
     refraction: f32,
-    // Share of light that a mirror takes up at normal incidence; 0 for none.
+    // Share of light that is mirrored at normal incidence; 0 for none.
     reflectivity: f32,
     // Surfaces after the first that a path may meet.
     bounces: u32,
-    // Whether lights cast shadows.
+    // Whether lamps cast shadows.
     shadows: u32,
-    // Occlusion rays a surface point.
+    // Occlusion rays of a surface point.
     occlusion_rays: u32,
     // Where occlusion rays end, scene units.
     occlusion_reach: f32,
-    lights: u32,
-    // Number of this sample of the picture, and of all.
-    exposure: u32,
-    exposures: u32,
+    lamps: u32,
+    // Index of this sample of the picture, and how many there will be.
+    sample: u32,
+    samples: u32,
     seed: u32,
     // Bands of cel shading; 0 for smooth shades.
     bands: u32,
@@ -41,8 +41,8 @@ struct Settings {
     tile: f32,
 }
 
-// Twin of `LightSource` in metaball-light: far away, seen from everywhere in the same direction.
-struct LightSource {
+// Twin of `twins::Lamp` in metaball-light: far away, seen from everywhere in the same direction.
+struct Lamp {
     // Unit vector towards its middle, world space.
     toward: vec3<f32>,
     // Sine of the angle between its middle and its rim; 0 casts hard shadows.
@@ -52,7 +52,7 @@ struct LightSource {
     padding: u32,
 }
 
-// Twin of `Path` in metaball-light.
+// Twin of `twins::Path` in metaball-light.
 struct Path {
     // Light that has reached the eye so far.
     radiance: vec3<f32>,
@@ -60,40 +60,42 @@ struct Path {
     stage: u32,
     // Share of what is found from here on that reaches the eye.
     throughput: vec3<f32>,
-    // Feelers sent from this surface.
-    feelers: u32,
+    // Shadow and occlusion rays of this surface point so far.
+    rays_sent: u32,
     // The surface point, world space.
-    place: vec3<f32>,
+    position: vec3<f32>,
+    // How far from it along the normal a start is certainly on its side of the surface, scene units.
     clearance: f32,
     // Unit, out of the solid.
     normal: vec3<f32>,
     // Surfaces met before this one.
     bounces: u32,
-    // What arrives if the feeler on its way meets nothing.
+    // Light that reaches the eye if the shadow or occlusion ray on its way hits nothing.
     pending: vec3<f32>,
-    // Whether the surface is the floor, which neither shines nor lets through.
+    // 1 where the surface is the floor, which is matt and opaque.
     on_floor: u32,
     // The surface's own colour, linear.
     base: vec3<f32>,
-    // Rays of this path that a method could not answer.
-    doubts: u32,
+    // Rays of this path that the method left undecided.
+    undecided: u32,
 }
 
-// Its ray runs outside of the solid, or inside. A path whose ray and feeler ask nothing has reached the eye
-// in full.
+// The path's ray runs outside of the solid, or inside. A path is complete when neither its own ray nor its
+// shadow ray asks anything.
 const OUTSIDE: u32 = 1u;
 const WITHIN: u32 = 2u;
 
 // The path's own rays.
 @group(0) @binding(1) var<storage, read_write> path_rays: array<FreeRay>;
-// Those that have just been answered.
+// The pixels whose rays have just been answered.
 @group(0) @binding(6) var<storage, read> answered: Listed;
-// Rays that feel for lights and sky.
-@group(1) @binding(0) var<storage, read_write> feelers: array<FreeRay>;
-@group(1) @binding(1) var<storage, read_write> feeler_hits: array<Hit>;
-@group(1) @binding(2) var<storage, read> answered_feelers: Listed;
+// Shadow and occlusion rays, one a pixel at a time, with their answers, and the pixels whose rays have just
+// been answered.
+@group(1) @binding(0) var<storage, read_write> shadow_rays: array<FreeRay>;
+@group(1) @binding(1) var<storage, read_write> shadow_hits: array<Hit>;
+@group(1) @binding(2) var<storage, read> answered_shadow_rays: Listed;
 @group(2) @binding(0) var<uniform> settings: Settings;
-@group(2) @binding(1) var<storage, read> lights: array<LightSource>;
+@group(2) @binding(1) var<storage, read> lamps: array<Lamp>;
 @group(2) @binding(2) var<storage, read_write> paths: array<Path>;
-// Sums over samples: linear light, and the number of samples.
+// Sums over samples: linear light, and their number.
 @group(2) @binding(3) var<storage, read_write> film: array<vec4<f32>>;

@@ -1,10 +1,11 @@
-// What a surface does with light: Phong's model lit through feelers, a mirror, or a clear fluid.
+// What a surface does with light: Phong's model lit along shadow and occlusion rays, a mirror, or a clear
+// fluid.
 #define_import_path metaball::effects::scatter
 
 #import metaball::free_ray::{FreeRay, ANSWERED, ANY_HIT, EXIT, FIRST_HIT}
 #import metaball::effects::environment::ambient
 #import metaball::effects::floor::beyond
-#import metaball::effects::path::{feelers, lights, path_rays, settings, Path, OUTSIDE, WITHIN}
+#import metaball::effects::path::{lamps, path_rays, settings, shadow_rays, Path, OUTSIDE, WITHIN}
 #import metaball::effects::sampling::{around, on_disc, point_in_square}
 #import metaball::view::NO_LIMIT
 
@@ -13,7 +14,7 @@ const SHININESS: f32 = 48.0;
 const HIGHLIGHT: f32 = 0.22;
 
 // Purposes of random numbers; each surface of a path has its own.
-const FOR_LIGHT: u32 = 1u;
+const FOR_LAMP: u32 = 1u;
 const FOR_SKY: u32 = 2u;
 const FOR_CHOICE: u32 = 3u;
 
@@ -26,8 +27,9 @@ fn is_clear(path: Path) -> bool {
     return settings.refraction > 0.0 && path.on_floor == 0u;
 }
 
-// Light that needs no feeler: what comes from all around, and lights that cast no shadows.
-fn light_directly(path: ptr<function, Path>, direction: vec3<f32>) {
+// Light that needs no ray: the surroundings' mean where nothing occludes them, and lamps that cast no
+// shadows.
+fn light_without_rays(path: ptr<function, Path>, direction: vec3<f32>) {
     if is_clear(*path) {
         return;
     }
@@ -36,39 +38,39 @@ fn light_directly(path: ptr<function, Path>, direction: vec3<f32>) {
         (*path).radiance += share * (*path).base * shaded(ambient((*path).normal));
     }
     if settings.shadows == 0u {
-        for (var light = 0u; light < settings.lights; light++) {
-            (*path).radiance += share * reflected(*path, direction, light, lights[light].toward);
+        for (var lamp = 0u; lamp < settings.lamps; lamp++) {
+            (*path).radiance += share * reflected(*path, direction, lamp, lamps[lamp].toward);
         }
     }
 }
 
-// Sends the next feeler, or the path's next ray.
-fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
+// Sends the surface point's next shadow or occlusion ray; after the last, the path's next ray.
+fn continue_path(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     if is_clear(*path) {
         pass_through(path, pixel, direction);
         return;
     }
-    let shadow_rays = settings.lights * settings.shadows;
-    while (*path).feelers < shadow_rays + settings.occlusion_rays {
-        let number = (*path).feelers;
-        (*path).feelers = number + 1u;
+    let to_lamps = settings.lamps * settings.shadows;
+    while (*path).rays_sent < to_lamps + settings.occlusion_rays {
+        let number = (*path).rays_sent;
+        (*path).rays_sent = number + 1u;
         var is_sent: bool;
-        if number < shadow_rays {
-            is_sent = feel_for_light(path, pixel, direction, number);
+        if number < to_lamps {
+            is_sent = send_shadow_ray(path, pixel, direction, number);
         } else {
-            is_sent = feel_for_sky(path, pixel, direction, number - shadow_rays);
+            is_sent = send_occlusion_ray(path, pixel, direction, number - to_lamps);
         }
         if is_sent {
             return;
         }
     }
-    feelers[pixel].query |= ANSWERED;
+    shadow_rays[pixel].query |= ANSWERED;
     let mirror = mirror_share(*path, direction);
     let toward = normalize(reflect(direction, (*path).normal));
     (*path).throughput *= mirror;
     if mirror == 0.0 || (*path).bounces >= settings.bounces {
         // The last surface of a path mirrors the surroundings alone.
-        (*path).radiance += (*path).throughput * beyond((*path).place, toward);
+        (*path).radiance += (*path).throughput * beyond((*path).position, toward);
         path_rays[pixel].query |= ANSWERED;
         return;
     }
@@ -77,9 +79,9 @@ fn go_on(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     path_rays[pixel] = FreeRay(start(*path, 1.0), NO_LIMIT, toward, FIRST_HIT);
 }
 
-// A point beside the surface, outside (1) or inside (-1), from which a ray can start.
+// The start of a secondary ray: off the surface by its clearance, outside (1) or inside (-1).
 fn start(path: Path, side: f32) -> vec3<f32> {
-    return path.place + side * path.clearance * path.normal;
+    return path.position + side * path.clearance * path.normal;
 }
 
 // The share of light that is mirrored: Schlick's approximation of Fresnel's equations (1994). None by the
@@ -97,8 +99,8 @@ fn own_share(path: Path, direction: vec3<f32>) -> vec3<f32> {
     return path.throughput * (1.0 - mirror_share(path, direction));
 }
 
-// Light of a lamp in a direction that the surface sends back along the ray.
-fn reflected(path: Path, direction: vec3<f32>, light: u32, toward: vec3<f32>) -> vec3<f32> {
+// Light of a lamp in direction `toward` that the surface reflects back along the ray.
+fn reflected(path: Path, direction: vec3<f32>, lamp: u32, toward: vec3<f32>) -> vec3<f32> {
     let cosine = dot(path.normal, toward);
     if cosine <= 0.0 {
         return vec3<f32>();
@@ -106,7 +108,7 @@ fn reflected(path: Path, direction: vec3<f32>, light: u32, toward: vec3<f32>) ->
     let mirrored = max(dot(reflect(direction, path.normal), toward), 0.0);
     let shine = select(HIGHLIGHT, 0.0, path.on_floor == 1u);
     let highlight = shine * shaded(vec3(pow(mirrored, SHININESS)));
-    return lights[light].color * (path.base * shaded(vec3(cosine)) + highlight);
+    return lamps[lamp].color * (path.base * shaded(vec3(cosine)) + highlight);
 }
 
 // In bands of brightness where cel shading is asked for; the light keeps its colour.
@@ -119,29 +121,29 @@ fn shaded(light: vec3<f32>) -> vec3<f32> {
     return light * (floor(brightness * bands + 0.5) / (bands * brightness));
 }
 
-fn feel_for_light(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, light: u32) -> bool {
-    let lamp = lights[light];
-    let number = settings.exposure * settings.lights + light;
-    let disc = lamp.size * on_disc(point_in_square(pixel, purpose(*path, FOR_LIGHT), number));
+// Towards a point of a lamp. Whether there is a ray to trace.
+fn send_shadow_ray(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, lamp: u32) -> bool {
+    let number = settings.sample * settings.lamps + lamp;
+    let disc = lamps[lamp].size * on_disc(point_in_square(pixel, purpose(*path, FOR_LAMP), number));
     let height = sqrt(max(1.0 - dot(disc, disc), 0.0));
-    let toward = around(lamp.toward, vec3(disc, height));
-    let light_found = own_share(*path, direction) * reflected(*path, direction, light, toward);
-    return send_feeler(path, pixel, toward, NO_LIMIT, light_found);
+    let toward = around(lamps[lamp].toward, vec3(disc, height));
+    let light = own_share(*path, direction) * reflected(*path, direction, lamp, toward);
+    return send(path, pixel, toward, NO_LIMIT, light);
 }
 
-// Sky seen by one of the surface's occlusion rays, thrown by Lambert's cosine.
-fn feel_for_sky(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, ray: u32) -> bool {
-    let number = settings.exposure * settings.occlusion_rays + ray;
+// One of the surface's occlusion rays, distributed by Lambert's cosine. Whether there is a ray to trace.
+fn send_occlusion_ray(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>, ray: u32) -> bool {
+    let number = settings.sample * settings.occlusion_rays + ray;
     let disc = on_disc(point_in_square(pixel, purpose(*path, FOR_SKY), number));
     let height = sqrt(max(1.0 - dot(disc, disc), 0.0));
     let toward = around((*path).normal, vec3(disc, height));
-    let light_found = own_share(*path, direction) * (*path).base * beyond((*path).place, toward)
+    let light = own_share(*path, direction) * (*path).base * beyond((*path).position, toward)
         / f32(settings.occlusion_rays);
-    return send_feeler(path, pixel, toward, settings.occlusion_reach, light_found);
+    return send(path, pixel, toward, settings.occlusion_reach, light);
 }
 
-// Whether there is anything to ask: not below the horizon.
-fn send_feeler(
+// Sends a ray that brings this light if it hits nothing; false, and no ray, below the surface's horizon.
+fn send(
     path: ptr<function, Path>,
     pixel: u32,
     toward: vec3<f32>,
@@ -152,12 +154,12 @@ fn send_feeler(
         return false;
     }
     (*path).pending = light;
-    feelers[pixel] = FreeRay(start(*path, 1.0), reach, toward, ANY_HIT);
+    shadow_rays[pixel] = FreeRay(start(*path, 1.0), reach, toward, ANY_HIT);
     return true;
 }
 
-// A clear fluid reflects or refracts, by Fresnel's equations: one of the two at random, as often as it
-// has of the light.
+// A clear fluid reflects or refracts, by Fresnel's equations: one of the two at random, with its share of
+// the light as probability.
 fn pass_through(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
     // The normal on the side that the ray comes from.
     let leaves = (*path).stage == WITHIN;
@@ -172,19 +174,19 @@ fn pass_through(path: ptr<function, Path>, pixel: u32, direction: vec3<f32>) {
         let along = (cosine - ratio * onward_cosine) / (cosine + ratio * onward_cosine);
         mirrored = 0.5 * (across * across + along * along);
     }
-    let choice = point_in_square(pixel, purpose(*path, FOR_CHOICE), settings.exposure).x;
+    let choice = point_in_square(pixel, purpose(*path, FOR_CHOICE), settings.sample).x;
     let is_mirrored = choice < mirrored;
     let onward = select(refract(direction, facing, ratio), reflect(direction, facing), is_mirrored);
     let toward = normalize(onward);
     if (*path).bounces >= settings.bounces {
         // Beyond the last surface there are only the surroundings.
-        (*path).radiance += (*path).throughput * beyond((*path).place, toward);
+        (*path).radiance += (*path).throughput * beyond((*path).position, toward);
         path_rays[pixel].query |= ANSWERED;
         return;
     }
     (*path).bounces += 1u;
     let is_within = leaves == is_mirrored;
     (*path).stage = select(OUTSIDE, WITHIN, is_within);
-    let question = select(FIRST_HIT, EXIT, is_within);
-    path_rays[pixel] = FreeRay(start(*path, select(1.0, -1.0, is_within)), NO_LIMIT, toward, question);
+    let query = select(FIRST_HIT, EXIT, is_within);
+    path_rays[pixel] = FreeRay(start(*path, select(1.0, -1.0, is_within)), NO_LIMIT, toward, query);
 }

@@ -1,7 +1,7 @@
 // Begins a sample of the picture: one path a pixel, from the eye through a point of the pixel.
 
 #import metaball::free_ray::{FreeRay, FIRST_HIT, no_ray}
-#import metaball::effects::path::{feelers, path_rays, paths, settings, Path, OUTSIDE}
+#import metaball::effects::path::{path_rays, paths, settings, shadow_rays, Path, OUTSIDE}
 #import metaball::effects::sampling::point_in_square
 #import metaball::make_ray::direction_through
 #import metaball::view::{in_picture, pixel_at, view, NO_LIMIT}
@@ -17,17 +17,17 @@ fn start_paths(@builtin(global_invocation_id) id: vec3<u32>) {
     path.throughput = vec3(1.0);
     paths[pixel] = path;
     path_rays[pixel] = FreeRay(view.eye, NO_LIMIT, direction(id.xy, pixel), FIRST_HIT);
-    feelers[pixel] = no_ray();
+    shadow_rays[pixel] = no_ray();
 }
 
 // Through the pixel's middle when there is one sample; else through points weighted by a tent of two
 // pixels' width, which smooths edges without blurring them.
 fn direction(position: vec2<u32>, pixel: u32) -> vec3<f32> {
     let middle = direction_through(position);
-    if settings.exposures == 1u {
+    if settings.samples == 1u {
         return middle;
     }
-    let square = point_in_square(pixel, 0u, settings.exposure);
+    let square = point_in_square(pixel, 0u, settings.sample);
     let moved = 2.0 * view.half_pixel * vec2(tent(square.x), tent(square.y));
     // The picture lies at unit distance along `forward`.
     let toward = middle / dot(middle, view.forward) + moved.x * view.right + moved.y * view.up;

@@ -11,7 +11,7 @@ use metaball_core::gpu::{
 };
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
-use metaball_light::{Effects, Environment, Floor, Lamp, Occlusion, Studio, Surface};
+use metaball_light::{Effects, Environment, Floor, Lamp, Occlusion, PathTracer, Surface};
 
 use super::{load, on_gpu, renderer, view_of};
 
@@ -112,11 +112,11 @@ fn follow(
     }
     let mut renderer = renderer(method)?;
     renderer.build(gpu, scene)?;
-    let mut studio = Studio::new(gpu, scene, view, effects, 1, 7)?;
-    studio.expose(renderer.as_mut())?;
+    let mut tracer = PathTracer::new(gpu, scene, view, effects, 1, 7)?;
+    tracer.add_sample(renderer.as_mut())?;
     match kind {
-        Kind::Shadow | Kind::Occlusion => answers(gpu, studio.last_feelers()),
-        Kind::Reflection { .. } | Kind::Refraction { .. } => answers(gpu, studio.last_rays()),
+        Kind::Shadow | Kind::Occlusion => answers(gpu, tracer.last_shadow_rays()),
+        Kind::Reflection { .. } | Kind::Refraction { .. } => answers(gpu, tracer.last_path_rays()),
     }
 }
 
@@ -457,10 +457,10 @@ fn same_seed_same_picture(gpu: &Gpu) -> Result<(), Failed> {
         };
         let mut renderer = renderer(CERTIFIED)?;
         renderer.build(gpu, &bench.scene)?;
-        let mut studio = Studio::new(gpu, &bench.scene, &view, effects, 2, seed)?;
-        studio.expose(renderer.as_mut())?;
-        studio.expose(renderer.as_mut())?;
-        Ok::<_, Failed>(studio.film()?)
+        let mut tracer = PathTracer::new(gpu, &bench.scene, &view, effects, 2, seed)?;
+        tracer.add_sample(renderer.as_mut())?;
+        tracer.add_sample(renderer.as_mut())?;
+        Ok::<_, Failed>(tracer.film()?)
     };
     let first = film(1)?;
     if first != film(1)? {
@@ -485,11 +485,11 @@ fn one_surface_is_enough(gpu: &Gpu) -> Result<(), Failed> {
     let film = |method, samples| {
         let mut renderer = renderer(method)?;
         renderer.build(gpu, &bench.scene)?;
-        let mut studio = Studio::new(gpu, &bench.scene, &view, effects.clone(), samples, 7)?;
+        let mut tracer = PathTracer::new(gpu, &bench.scene, &view, effects.clone(), samples, 7)?;
         for _ in 0..samples {
-            studio.expose(renderer.as_mut())?;
+            tracer.add_sample(renderer.as_mut())?;
         }
-        Ok::<_, Failed>(studio.film()?.light)
+        Ok::<_, Failed>(tracer.film()?.light)
     };
     for (samples, tolerance) in [(1, 1e-3), (16, 0.02)] {
         let wanted = film(CERTIFIED, samples)?;
@@ -523,8 +523,8 @@ fn refused_without_rays(gpu: &Gpu) -> Result<(), Failed> {
     for (method, effects) in refused {
         let mut renderer = renderer(method)?;
         renderer.build(gpu, &bench.scene)?;
-        let mut studio = Studio::new(gpu, &bench.scene, &view, effects, 1, 0)?;
-        match studio.expose(renderer.as_mut()) {
+        let mut tracer = PathTracer::new(gpu, &bench.scene, &view, effects, 1, 0)?;
+        match tracer.add_sample(renderer.as_mut()) {
             Err(error) if error.to_string().starts_with(&format!("method {method}: needed")) => {}
             outcome => return Err(format!("{method}: needed a refusal, found {outcome:?}").into()),
         }

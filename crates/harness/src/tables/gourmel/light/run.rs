@@ -6,7 +6,7 @@ use anyhow::Context;
 use bench_scenes::{Overrides, load};
 use metaball_core::View;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
-use metaball_light::Studio;
+use metaball_light::PathTracer;
 use serde::{Deserialize, Serialize};
 
 use super::effect::Effect;
@@ -69,7 +69,7 @@ pub fn measure(
     let scene = &bench.scene;
     let views = views(&bench.camera, &bench.path, &scene.bounds(), shoot.size, shoot.cameras)?;
     let mut renderers: BTreeMap<&str, Result<Box<dyn IsoRenderer>, String>> = BTreeMap::new();
-    let mut studios = Vec::new();
+    let mut tracers = Vec::new();
     for one in wanted {
         renderers.entry(one.method).or_insert_with(|| {
             progress.stage(format!("{spec}: building {}", one.method));
@@ -79,18 +79,18 @@ pub fn measure(
             Ok(renderer)
         });
         let effects = one.effect.effects(&bench.camera);
-        studios.push(Studio::new(gpu, scene, &views[0], effects, 1, 0)?);
+        tracers.push(PathTracer::new(gpu, scene, &views[0], effects, 1, 0)?);
     }
 
     let mut frames: Vec<Result<Frames, String>> =
         wanted.iter().map(|_| Ok(Frames::default())).collect();
     let warm_up = [(&views[0], false)].into_iter();
     for (view, is_timed) in warm_up.chain(views.iter().map(|view| (view, true))) {
-        for ((one, studio), frames) in wanted.iter().zip(&mut studios).zip(&mut frames) {
+        for ((one, tracer), frames) in wanted.iter().zip(&mut tracers).zip(&mut frames) {
             progress.stage(format!("{spec}: {} with {}", one.effect.name(), one.method));
             let renderer = renderers.get_mut(one.method);
             if let (Ok(taken), Some(Ok(renderer))) = (&mut *frames, renderer)
-                && let Err(error) = taken.draw(studio, renderer.as_mut(), view, is_timed)
+                && let Err(error) = taken.draw(tracer, renderer.as_mut(), view, is_timed)
             {
                 *frames = Err(error.to_string());
             }
@@ -125,19 +125,19 @@ pub fn steps(shoot: Shoot) -> u64 {
 impl Frames {
     fn draw(
         &mut self,
-        studio: &mut Studio<'_>,
+        tracer: &mut PathTracer<'_>,
         renderer: &mut dyn IsoRenderer,
         view: &View,
         is_timed: bool,
     ) -> Result<(), RenderError> {
-        studio.turn_to(view)?;
-        let report = studio.expose(renderer)?;
+        tracer.set_view(view)?;
+        let report = tracer.add_sample(renderer)?;
         if is_timed {
             self.wall_ms.push(milliseconds(report.wall));
             for (label, time) in report.passes {
                 self.passes_ms.entry(label).or_default().push(milliseconds(time));
             }
-            self.doubts = studio.doubts()?;
+            self.doubts = tracer.undecided()?;
         }
         Ok(())
     }
