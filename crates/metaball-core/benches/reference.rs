@@ -46,7 +46,7 @@ fn rays(half: f32) -> Vec<Ray> {
         .collect()
 }
 
-/// A chain folded into a sphere of radius 13: about 40 supports over each place inside.
+/// A chain folded into a sphere of radius 13: about 40 supports over each point inside.
 fn chain(kernel: Kernel) -> Scene {
     let mut random = Random(1);
     let mut end = Vec3::ZERO;
@@ -64,7 +64,7 @@ fn chain(kernel: Kernel) -> Scene {
     Scene::new(balls, kernel, 0.5).expect("legal")
 }
 
-/// 100,000 balls in a cube of side 2, `overlap` supports over each place.
+/// 100,000 balls in a cube of side 2, `overlap` supports over each point.
 fn scattered(overlap: f32) -> Scene {
     let mut random = Random(2);
     let radius = (overlap * 8.0 / 1e5 * 0.75 / std::f32::consts::PI).cbrt();

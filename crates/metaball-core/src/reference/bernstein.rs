@@ -1,8 +1,8 @@
 //! The field of polynomial kernels on a piece of a segment, in Bernstein form.
 
 use super::{
-    stretch::Stretch,
-    walk::{Piece, Trend},
+    interval::Interval,
+    piece::{Piece, Trend},
 };
 
 /// The highest degree along a ray: 2α for the power kernel α = 8.
@@ -41,13 +41,13 @@ impl Bernstein {
     /// Coefficients are scaled by their binomial while they are summed: products are then plain
     /// convolutions. As no term of any v is negative, nothing cancels, and each coefficient is good
     /// to a relative (n + 50)·2e-16 for n balls.
-    pub(super) fn new(segment: &Stretch<'_>, kernel: &[f64]) -> Self {
+    pub(super) fn new(segment: &Interval<'_>, kernel: &[f64]) -> Self {
         let degree = 2 * (kernel.len() - 1);
         let mut sum = [0.0; MAX_DEGREE + 1];
         for bump in segment.bumps() {
             let depth = [
                 bump.depth(0.0),
-                2.0 * bump.blossom(0.0, segment.length),
+                2.0 * bump.polar_form(0.0, segment.length),
                 bump.depth(segment.length),
             ];
             let value = compose(kernel, &depth);
@@ -154,7 +154,7 @@ mod tests {
             let line = Line::new(&Ray::new(Vec3::new(side, 0.0, -2.0), Vec3::Z));
             let ball = Metaball { center: Vec3::ZERO, radius: 1.0, strength };
             let chord = Chord::new(&line, &ball).expect("the line meets the ball");
-            let segment = Stretch::of(&chord, kernel);
+            let segment = Interval::of(&chord, kernel);
             let length = segment.length;
             let mut piece = Bernstein::new(&segment, coefficients);
             // Halve towards the point at `share`, and hold each piece against the field.

@@ -1,4 +1,4 @@
-//! A ray in f64, and the stretch of it that one ball's support covers.
+//! A ray in f64, and the chord that one ball's support cuts from it.
 
 use glam::DVec3;
 
@@ -59,15 +59,15 @@ pub(super) struct Chord {
 }
 
 impl Chord {
-    /// `None` where the line passes the ball by, or reaches it only outside 0 ≤ t ≤ `end`.
+    /// `None` where the line misses the ball, or meets it only outside 0 ≤ t ≤ `end`.
     pub(super) fn new(line: &Line, ball: &Metaball) -> Option<Self> {
         let squared_length = line.direction.length_squared();
         let center = ball.center.as_dvec3();
         let middle = (center - line.origin).dot(line.direction) / squared_length;
         let anchor = f64::from(middle as f32);
-        let beside = center - line.at(anchor);
-        let offset = beside.dot(line.direction) / squared_length;
-        let distance = (beside - offset * line.direction).length();
+        let relative = center - line.at(anchor);
+        let offset = relative.dot(line.direction) / squared_length;
+        let distance = (relative - offset * line.direction).length();
 
         let radius = f64::from(ball.radius);
         let half = ((radius - distance) * (radius + distance) / squared_length).sqrt();
@@ -91,7 +91,7 @@ impl Chord {
     }
 
     /// The ball in u = t − `origin`. The anchor and a nearby origin differ by an exact number.
-    pub(super) fn seen_from(&self, origin: f64) -> Bump {
+    pub(super) fn relative_to(&self, origin: f64) -> Bump {
         Bump {
             middle: (self.anchor - origin) + self.offset,
             half: self.half,
@@ -117,9 +117,10 @@ impl Bump {
         (self.steepness * (self.half - x) * (self.half + x)).max(0.0)
     }
 
-    /// The symmetric bilinear form B of the depth's parabola, with B(u, u) = `depth(u)`: the depth's
-    /// Bernstein coefficients on \[a, b\] are B(a, a), B(a, b), B(b, b). None is negative on the chord.
-    pub(super) fn blossom(&self, a: f64, b: f64) -> f64 {
+    /// The polar form B of the depth's parabola, symmetric and affine in each argument, with B(u, u) =
+    /// `depth(u)`: the depth's Bernstein coefficients on \[a, b\] are B(a, a), B(a, b), B(b, b). None is
+    /// negative on the chord.
+    pub(super) fn polar_form(&self, a: f64, b: f64) -> f64 {
         let (x, y) = (a - self.middle, b - self.middle);
         (self.steepness * (self.half * self.half - x * y)).max(0.0)
     }

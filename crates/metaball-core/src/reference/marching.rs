@@ -37,12 +37,12 @@ pub fn march(scene: &Scene, ray: &Ray) -> March {
         return March { verdict: Verdict::Inside, low: 0.0, high: 0.0 };
     }
 
-    // Start of a run of intervals, up to the present one, that could not be decided.
-    let mut doubt: Option<f64> = None;
+    // Start of the undecided intervals that end where the present one begins.
+    let mut undecided: Option<f64> = None;
     let mut pending = vec![(0.0, profiles.end)];
     while let Some((from, to)) = pending.pop() {
         if profiles.upper_bound(from, to) * (1.0 + GUARD) < threshold {
-            if let Some(low) = doubt {
+            if let Some(low) = undecided {
                 return March { verdict: Verdict::Undecided, low, high: from };
             }
             continue;
@@ -52,12 +52,12 @@ pub fn march(scene: &Scene, ray: &Ray) -> March {
         if to - from > shortest && from < middle && middle < to {
             pending.extend([(middle, to), (from, middle)]);
         } else if profiles.field(to) >= threshold {
-            return March { verdict: Verdict::Hit, low: doubt.unwrap_or(from), high: to };
+            return March { verdict: Verdict::Hit, low: undecided.unwrap_or(from), high: to };
         } else {
-            doubt = doubt.or(Some(from));
+            undecided = undecided.or(Some(from));
         }
     }
-    match doubt {
+    match undecided {
         Some(low) => March { verdict: Verdict::Undecided, low, high: profiles.end },
         None => March { verdict: Verdict::Miss, low: f64::INFINITY, high: f64::INFINITY },
     }

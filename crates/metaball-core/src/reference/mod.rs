@@ -1,7 +1,7 @@
 //! The reference: exact first hits in f64, on the CPU, independent of every method.
 //!
-//! The oracle is true to the stored f32 scene along the given f32 ray: it takes both as exact
-//! numbers and looks at the points `origin + t * direction` with the direction as stored.
+//! [`Oracle`] takes the stored f32 scene and the given f32 ray as exact numbers: its answers are those
+//! of the points `origin + t * direction` with the direction as stored.
 //!
 //! # Theory
 //! Along a ray each ball's v = 1 − r²/R² is a parabola, positive on the ball's *chord*. The ends of
@@ -19,20 +19,35 @@
 //! back, and the walk ends where the first sheet is left.
 //!
 //! # Practice
-//! Nothing is lost to distance: each ball is measured from a point of the ray beside it, and each
-//! segment has its own origin. What remains is the rounding of f64, n·2e-16 of the summed field for
+//! Distance costs no digits: each ball is measured from a nearby point of the ray, and each segment has
+//! an origin of its own. What remains is the rounding of f64, n·2e-16 of the summed field for
 //! n balls that overlap. That moves a crossing by as much divided by the slope there, beyond the
 //! 1e-12 relative that t is otherwise good for: where a ray grazes, t is known to the square root
 //! only, and [`Truth::margin`] says so.
 //!
-//! [`march`] is a second oracle, slow and plain, which shares none of this; tests hold one against
-//! the other.
+//! [`march`] is a second oracle, slow and plain, which shares no code with the first; tests compare the
+//! two.
+//!
+//! ```
+//! use glam::Vec3;
+//! use metaball_core::reference::Oracle;
+//! use metaball_core::{Kernel, Metaball, Ray, Scene};
+//!
+//! let balls = [Metaball::new(Vec3::ZERO, 1.0), Metaball::new(Vec3::X, 1.0)];
+//! let scene = Scene::new(balls, Kernel::QUARTIC, 0.25)?;
+//! let truth = Oracle::new(&scene).first_hit(&Ray::new(Vec3::X * 5.0, Vec3::NEG_X));
+//! println!("{:?} at t = {:.3}, out at {:.3}", truth.verdict, truth.t, truth.leaves);
+//! # assert_eq!(format!("{:.3} {:.3}", truth.t, truth.leaves), "3.293 5.707");
+//! # Ok::<(), metaball_core::SceneError>(())
+//! ```
 
 mod bernstein;
 mod chord;
+mod interval;
 mod marching;
 mod perlin;
-mod stretch;
+mod piece;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -45,20 +60,20 @@ pub use marching::{March, march};
 
 use self::{
     chord::{Chord, Line},
-    stretch::sweep,
+    sweep::sweep,
     tree::Tree,
     walk::Walk,
 };
 use crate::{Metaball, Ray, Scene, Verdict};
 
-/// A scene made ready for exact questions.
+/// A scene prepared for exact queries.
 #[derive(Debug)]
 pub struct Oracle<'a> {
     scene: &'a Scene,
     tree: Tree,
 }
 
-/// What is true of a ray.
+/// The exact first hit of a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Truth {
     /// `Miss`, `Hit` or `Inside`; never `Undecided`.
@@ -85,22 +100,24 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// The margin up to which a ray is called ambiguous: f32 arithmetic sums tens of balls to 1e-5.
+    /// The margin up to which a ray is called ambiguous: the relative error to which f32 arithmetic sums
+    /// some tens of balls.
     pub const AMBIGUOUS: f64 = 1e-5;
 
-    /// Whether a method in f32 cannot be blamed for another verdict.
+    /// Whether f32 arithmetic may rightly end at another verdict: the margin is at most
+    /// [`Truth::AMBIGUOUS`].
     pub fn is_ambiguous(&self) -> bool {
         self.margin <= Self::AMBIGUOUS
     }
 }
 
 impl<'a> Oracle<'a> {
-    /// Sorts the balls for search.
+    /// Builds the search tree of the balls: O(n log n) for n balls.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, tree: Tree::new(scene.supports()) }
     }
 
-    /// The first hit. A ray with a NaN, or without a direction, sees only the point it starts from;
+    /// The first hit. A ray with a NaN, or with a zero direction, is the point where it starts;
     /// a negative `t_max` counts as 0.
     pub fn first_hit(&self, ray: &Ray) -> Truth {
         let threshold = f64::from(self.scene.threshold());

@@ -2,15 +2,15 @@
 
 use super::{
     chord::Bump,
-    stretch::Stretch,
-    walk::{Piece, Trend},
+    interval::Interval,
+    piece::{Piece, Trend},
 };
 
 /// A piece \[from, to\] of a segment with values and slopes at the ends and bounds of the second
 /// derivative in between. Works because the kernel is twice continuously differentiable along any
 /// ray, at its rim and through its centre too.
 pub(super) struct Perlin<'a> {
-    segment: &'a Stretch<'a>,
+    segment: &'a Interval<'a>,
     from: End,
     to: End,
     /// Least and greatest second derivative by u.
@@ -26,11 +26,11 @@ struct End {
 
 impl<'a> Perlin<'a> {
     /// The field on the whole segment.
-    pub(super) fn new(segment: &'a Stretch<'a>) -> Self {
+    pub(super) fn new(segment: &'a Interval<'a>) -> Self {
         Self::between(segment, End::new(segment, 0.0), End::new(segment, segment.length))
     }
 
-    fn between(segment: &'a Stretch<'a>, from: End, to: End) -> Self {
+    fn between(segment: &'a Interval<'a>, from: End, to: End) -> Self {
         let curvature = segment.bumps().fold((0.0, 0.0), |(low, high), bump| {
             let (least, greatest) = curvature(&bump, from.u, to.u);
             (low + bump.strength * least, high + bump.strength * greatest)
@@ -44,7 +44,7 @@ impl<'a> Perlin<'a> {
 }
 
 impl End {
-    fn new(segment: &Stretch<'_>, u: f64) -> Self {
+    fn new(segment: &Interval<'_>, u: f64) -> Self {
         let (value, slope) = segment.field(u);
         Self { u, value, slope }
     }
@@ -135,7 +135,7 @@ mod tests {
             let line = Line::new(&Ray::new(Vec3::new(side, 0.0, -2.0), Vec3::Z));
             let ball = Metaball::new(Vec3::ZERO, 1.0);
             let chord = Chord::new(&line, &ball).expect("the line meets the ball");
-            let segment = Stretch::of(&chord, Kernel::Perlin);
+            let segment = Interval::of(&chord, Kernel::Perlin);
             let length = segment.length;
 
             let (a, b) = (length * from.min(to), length * from.max(to));
@@ -143,7 +143,7 @@ mod tests {
             prop_assume!(b - a > 2.0 * step);
             let u = a + share * (b - a - step);
             let difference = (segment.field(u + step).1 - segment.field(u).1) / step;
-            let (least, greatest) = curvature(&chord.seen_from(segment.start), a, b);
+            let (least, greatest) = curvature(&chord.relative_to(segment.start), a, b);
             prop_assert!(least - 1e-9 <= difference && difference <= greatest + 1e-9);
         }
     }

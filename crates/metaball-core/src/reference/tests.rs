@@ -143,7 +143,7 @@ mod closed_forms {
     }
 
     /// Centres within 0.5e-3·√3 of one point put the surface within as much of the coincident one.
-    /// Eight thousand events close together: a second's work a ray if each looked at all balls.
+    /// Eight thousand events close together: a second's work a ray if each visited all balls.
     #[test]
     fn four_thousand_nearly_coincident_balls() {
         let mut random = Random(5);
@@ -247,23 +247,23 @@ mod edges {
     #[test]
     fn opaque_things_end_the_ray() {
         let scene = one_ball(0.75);
-        let look = |t_max| {
+        let trace = |t_max| {
             let ray = Ray { t_max, ..Ray::new(Vec3::X * 3.0, Vec3::NEG_X) };
             Oracle::new(&scene).first_hit(&ray)
         };
         // The ball spans t from 2.5 to 3.5.
-        assert_eq!(look(2.25).verdict, Verdict::Miss);
-        assert_eq!(look(2.75).verdict, Verdict::Hit);
-        assert_eq!(look(2.75).leaves, 2.75);
-        assert_eq!(look(4.0).leaves, 3.5);
-        // At the end the field is 1 − 0.75² and 1 − 0.25², as far as the ray can tell.
-        approx::assert_abs_diff_eq!(look(2.25).margin, 1.0 - 0.4375 / 0.75, epsilon = 1e-9);
-        approx::assert_abs_diff_eq!(look(2.75).margin, 0.9375 / 0.75 - 1.0, epsilon = 1e-9);
+        assert_eq!(trace(2.25).verdict, Verdict::Miss);
+        assert_eq!(trace(2.75).verdict, Verdict::Hit);
+        assert_eq!(trace(2.75).leaves, 2.75);
+        assert_eq!(trace(4.0).leaves, 3.5);
+        // At the end the field is 1 − 0.75² and 1 − 0.25², to the rounding of the ray.
+        approx::assert_abs_diff_eq!(trace(2.25).margin, 1.0 - 0.4375 / 0.75, epsilon = 1e-9);
+        approx::assert_abs_diff_eq!(trace(2.75).margin, 0.9375 / 0.75 - 1.0, epsilon = 1e-9);
         for t_max in [0.0, -1.0, f32::NAN] {
-            assert_eq!(look(t_max).verdict, Verdict::Miss);
+            assert_eq!(trace(t_max).verdict, Verdict::Miss);
         }
         for t_max in [f32::INFINITY, NO_LIMIT] {
-            assert_eq!(look(t_max), look(10.0));
+            assert_eq!(trace(t_max), trace(10.0));
         }
     }
 
@@ -305,7 +305,7 @@ mod edges {
 mod against_marching {
     use super::*;
 
-    /// Whether the two agree; `None` where marching cannot tell: its intervals end at a width of
+    /// Whether the two agree; `None` where marching is too coarse: its intervals end at a width of
     /// `width`, on which the balls vary by at most Σ q·3.1/R·width (3.1 exceeds |dk/dρ| of every
     /// kernel, α = 8 having the steepest).
     fn agree(scene: &Scene, truth: &Truth, march: &March) -> Option<bool> {

@@ -2,29 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use super::{bernstein::Bernstein, perlin::Perlin, stretch::Stretch};
+use super::{
+    bernstein::Bernstein,
+    interval::Interval,
+    perlin::Perlin,
+    piece::{Piece, Trend},
+};
 use crate::Verdict;
-
-/// The field on part of a segment, with what is certain about it.
-pub(super) trait Piece: Sized {
-    /// First and last u.
-    fn span(&self) -> (f64, f64);
-    /// Values at first and last u.
-    fn ends(&self) -> (f64, f64);
-    /// Bounds of all values; tighter on shorter pieces.
-    fn range(&self) -> (f64, f64);
-    /// The direction, if the piece is known to be monotonic.
-    fn trend(&self) -> Option<Trend>;
-    /// The parts before and after `middle`, which is half-way.
-    fn split_at(&self, middle: f64) -> [Self; 2];
-}
-
-/// How a monotonic piece goes.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Trend {
-    Rising,
-    Falling,
-}
 
 /// Share of T to which maxima are found: what [`Truth::margin`](super::Truth) promises.
 const MAXIMUM_TOLERANCE: f64 = 1e-9;
@@ -67,11 +51,11 @@ impl Walk {
         }
     }
 
-    /// Passes over the next stretch if it can be told without a closer look that nothing in it
-    /// decides; otherwise does nothing and returns false.
-    pub(super) fn skip(&mut self, stretch: &Stretch<'_>) -> bool {
-        if let Some(trend) = stretch.trend() {
-            let (first, last) = (stretch.field(0.0).0, stretch.field(stretch.length).0);
+    /// Passes over the next interval if bounds of its balls show that nothing in it decides;
+    /// otherwise does nothing and returns false.
+    pub(super) fn skip(&mut self, interval: &Interval<'_>) -> bool {
+        if let Some(trend) = interval.trend() {
+            let (first, last) = (interval.field(0.0).0, interval.field(interval.length).0);
             match self.state {
                 State::Before if first.max(last) < self.threshold => {
                     if trend == Trend::Falling {
@@ -87,18 +71,18 @@ impl Walk {
             }
         }
         match self.state {
-            State::Before => stretch.stays_below(self.highest_before),
+            State::Before => interval.stays_below(self.highest_before),
             State::Inside => {
-                stretch.stays_above(self.threshold)
-                    && (self.is_inside_clear() || stretch.stays_below(self.highest_inside))
+                interval.stays_above(self.threshold)
+                    && (self.is_inside_clear() || interval.stays_below(self.highest_inside))
             }
             State::After => true,
         }
     }
 
-    /// Crosses the next segment: a stretch without an event inside. Breaks where the first sheet
+    /// Crosses the next segment, an interval without an event inside. Breaks where the first sheet
     /// has been left.
-    pub(super) fn cross(&mut self, segment: &Stretch<'_>) -> ControlFlow<()> {
+    pub(super) fn cross(&mut self, segment: &Interval<'_>) -> ControlFlow<()> {
         match segment.kernel.coefficients() {
             Some(kernel) => self.follow(segment, Bernstein::new(segment, kernel)),
             None => self.follow(segment, Perlin::new(segment)),
@@ -129,7 +113,7 @@ impl Walk {
         self.leaves
     }
 
-    /// The least distance of the field from T, in shares of T, over the places that decide.
+    /// The least distance of the field from T, in shares of T, over the points that decide.
     pub(super) fn margin(&self) -> f64 {
         let before = (self.threshold - self.highest_before).abs();
         let inside = match self.first_hit().0 {
@@ -140,7 +124,7 @@ impl Walk {
     }
 
     /// Visits pieces front to back, halving those that are not settled.
-    fn follow<P: Piece>(&mut self, segment: &Stretch<'_>, whole: P) -> ControlFlow<()> {
+    fn follow<P: Piece>(&mut self, segment: &Interval<'_>, whole: P) -> ControlFlow<()> {
         let mut pending = vec![whole];
         while let Some(piece) = pending.pop() {
             let (from, to) = piece.span();
@@ -170,7 +154,7 @@ impl Walk {
                     self.enter(segment.start + segment.crossing(self.threshold, from, to, true));
                     self.highest_inside = last;
                 }
-                // What rises is no maximum yet; the next piece, or the end of the ray, will tell.
+                // What rises is no maximum yet: the next piece, or the end of the ray, has it.
                 State::Before if trend == Some(Trend::Rising) => {}
                 State::Before => self.highest_before = self.highest_before.max(first).max(last),
                 State::Inside if last < self.threshold => {
@@ -196,13 +180,13 @@ impl Walk {
         }
     }
 
-    /// Whether the maximum inside no longer matters to the margin: that takes the lesser distance
-    /// from T, and the one before the hit is less.
+    /// Whether the maximum inside no longer matters to the margin, which is the lesser of two
+    /// distances from T: the one before the hit is less.
     fn is_inside_clear(&self) -> bool {
         self.highest_inside - self.threshold >= self.threshold - self.highest_before
     }
 
-    /// Whether all values of a piece with these bounds are the same for our purpose.
+    /// Whether all values of a piece with these bounds are the same within the tolerances.
     fn is_flat(&self, low: f64, high: f64) -> bool {
         let touches = low < self.threshold && high >= self.threshold;
         let tolerance = if touches { CROSSING_TOLERANCE } else { MAXIMUM_TOLERANCE };

@@ -1,88 +1,26 @@
-//! Stretches of a ray, and the order in which they are visited.
-
-use std::ops::ControlFlow;
+//! The field on an interval of a ray.
 
 use super::{
     chord::{Bump, Chord},
-    walk::{Trend, Walk},
+    piece::Trend,
 };
 use crate::Kernel;
 
-/// A stretch of ray, `start` ≤ t ≤ `start + length`, with all balls whose chord overlaps it. Where
-/// each chord covers all of it, no event lies inside: a *segment*.
-pub(super) struct Stretch<'a> {
+/// An interval of a ray, `start` ≤ t ≤ `start + length`, with all balls whose chord overlaps it. One
+/// that each of these chords covers whole, so that no chord ends inside, is a *segment*.
+pub(super) struct Interval<'a> {
     pub(super) start: f64,
     pub(super) length: f64,
     pub(super) kernel: Kernel,
-    chords: &'a [Chord],
-    /// Indices of the chords that overlap the stretch.
-    active: &'a [usize],
+    pub(super) chords: &'a [Chord],
+    /// Indices of the chords that overlap the interval.
+    pub(super) active: &'a [usize],
 }
 
-/// Leads the walk along the ray from 0 to `end`, until it has seen enough.
-///
-/// Stretches between two events, the ends of chords, are halved at the event in the middle until
-/// they are settled or segments. So thousands of chords that end close together, as those of nearly
-/// coincident balls do, cost no more than their number times its logarithm.
-pub(super) fn sweep(chords: &[Chord], end: f64, kernel: Kernel, walk: &mut Walk) {
-    let mut events: Vec<f64> = chords
-        .iter()
-        .flat_map(|chord| [chord.start().max(0.0), chord.end().min(end)])
-        .chain([0.0, end])
-        .collect();
-    events.sort_unstable_by(f64::total_cmp);
-    events.dedup();
-    let mut active: Vec<usize> = (0..chords.len()).collect();
-    // Whether the walk was broken off makes no difference here.
-    let _ = Sweep { chords, kernel, walk }.visit(&events, &mut active, 0);
-}
-
-struct Sweep<'a> {
-    chords: &'a [Chord],
-    kernel: Kernel,
-    walk: &'a mut Walk,
-}
-
-impl Sweep<'_> {
-    /// Visits the stretch between the first and the last event. `stack` holds from `base` on the
-    /// chords that overlap it; below are those of the stretches around it.
-    fn visit(&mut self, events: &[f64], stack: &mut Vec<usize>, base: usize) -> ControlFlow<()> {
-        let &[start, .., end] = events else { return ControlFlow::Continue(()) };
-        let stretch = Stretch {
-            start,
-            length: end - start,
-            kernel: self.kernel,
-            chords: self.chords,
-            active: &stack[base..],
-        };
-        if self.walk.skip(&stretch) {
-            return ControlFlow::Continue(());
-        }
-        if events.len() == 2 {
-            return self.walk.cross(&stretch);
-        }
-        let half = events.len() / 2;
-        for (events, start, end) in
-            [(&events[..=half], start, events[half]), (&events[half..], events[half], end)]
-        {
-            let top = stack.len();
-            for place in base..top {
-                let chord = &self.chords[stack[place]];
-                if chord.start() < end && chord.end() > start {
-                    stack.push(stack[place]);
-                }
-            }
-            self.visit(events, stack, top)?;
-            stack.truncate(top);
-        }
-        ControlFlow::Continue(())
-    }
-}
-
-impl Stretch<'_> {
+impl Interval<'_> {
     /// The balls, in u = t − `start`.
     pub(super) fn bumps(&self) -> impl Iterator<Item = Bump> {
-        self.active.iter().map(|&index| self.chords[index].seen_from(self.start))
+        self.active.iter().map(|&index| self.chords[index].relative_to(self.start))
     }
 
     /// Field and its derivative by u.
@@ -108,16 +46,16 @@ impl Stretch<'_> {
         }
     }
 
-    /// Bounds of the field on \[a, b\]: the sum of the exact range of each ball, which rises to the
-    /// middle of its chord and falls from there.
+    /// Bounds of the field on \[a, b\]: the sum of the exact ranges of the balls, each of which rises
+    /// to the middle of its chord and falls from there.
     pub(super) fn range(&self, a: f64, b: f64) -> (f64, f64) {
         self.bumps().fold((0.0, 0.0), |(low, high), bump| {
             (low + self.least(&bump, a, b), high + self.greatest(&bump, a, b))
         })
     }
 
-    /// Whether these bounds keep the field at or above `level` on the whole stretch. Looks at no
-    /// more balls than it takes.
+    /// Whether the balls' exact ranges keep the field at or above `level` on the whole interval. Stops
+    /// at the first ball that settles it.
     pub(super) fn stays_above(&self, level: f64) -> bool {
         let mut low = 0.0;
         self.bumps().any(|bump| {
@@ -126,7 +64,7 @@ impl Stretch<'_> {
         })
     }
 
-    /// Whether they keep it at or below `level`.
+    /// Whether they keep the field at or below `level` on the whole interval.
     pub(super) fn stays_below(&self, level: f64) -> bool {
         let mut high = 0.0;
         self.bumps().all(|bump| {
@@ -135,11 +73,12 @@ impl Stretch<'_> {
         })
     }
 
-    /// The farther from the middle of its chord, the less of a ball.
+    /// The ball's least value on \[a, b\]: at the end that is farther from the middle of its chord.
     fn least(&self, bump: &Bump, a: f64, b: f64) -> f64 {
         self.value(bump, if bump.middle - a > b - bump.middle { a } else { b })
     }
 
+    /// The ball's greatest value on \[a, b\]: at the point nearest to the middle of its chord.
     fn greatest(&self, bump: &Bump, a: f64, b: f64) -> f64 {
         self.value(bump, bump.middle.max(a).min(b))
     }
@@ -178,7 +117,7 @@ impl Stretch<'_> {
 }
 
 #[cfg(test)]
-impl<'a> Stretch<'a> {
+impl<'a> Interval<'a> {
     /// One ball alone, from rim to rim.
     pub(super) fn of(chord: &'a Chord, kernel: Kernel) -> Self {
         let (start, length) = (chord.start(), chord.end() - chord.start());
