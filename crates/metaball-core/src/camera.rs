@@ -1,4 +1,4 @@
-//! Pinhole cameras, and views: a camera with an image size.
+//! Pinhole cameras, and views: cameras with an image size.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub struct Camera {
     half_height: f32,
 }
 
-/// Why something is no camera.
+/// Why arguments make no camera.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CameraError {
@@ -36,7 +36,7 @@ pub enum CameraError {
         /// The angle in degrees.
         found: f32,
     },
-    /// The eye is where it looks.
+    /// Eye and `look_at` are one point.
     #[error("camera: needed an eye apart from look_at, found both at {found}")]
     NoDirection {
         /// The common point.
@@ -139,8 +139,8 @@ impl Camera {
         self.half_height
     }
 
-    /// The same camera turned about its eye, so that it looks where (right, up) was in its picture, in units
-    /// of the picture that lies at unit distance.
+    /// The same camera turned about its eye, so that the middle of its picture is what was at (`right`, `up`)
+    /// from the middle, in scene units on the picture at unit distance.
     #[must_use]
     pub fn turned(&self, right: f32, up: f32) -> Self {
         let [x, y, z] = [self.right, self.up, self.forward].map(Vec3::as_dvec3);
@@ -180,7 +180,7 @@ impl Camera {
     }
 }
 
-/// What a picture is taken of: a camera, an image size, and perhaps a solid scene in front.
+/// A camera, an image size, and perhaps an opaque scene among the metaballs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     camera: Camera,
@@ -189,7 +189,7 @@ pub struct View {
     opaque_distance: Option<Arc<[f32]>>,
 }
 
-/// Why something is no view.
+/// Why arguments make no view.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -222,7 +222,7 @@ pub enum ViewError {
 }
 
 impl View {
-    /// A view without a solid scene.
+    /// A view without an opaque scene.
     ///
     /// # Errors
     /// When the image has no pixels or too many.
@@ -234,9 +234,9 @@ impl View {
         Ok(Self { camera, width, height, opaque_distance: None })
     }
 
-    /// Puts a solid scene before the metaballs: for each pixel, row by row from the top left, the
-    /// distance along its unit ray at which something opaque is hit, +∞ where there is nothing
-    /// (Illés and Szécsi, phase 2; the polygons of Kanamori et al.). No ray looks beyond it.
+    /// Adds an opaque scene: for each pixel, row by row from the top left, the t at which its ray meets
+    /// something opaque, scene units, +∞ where there is nothing (Illés and Szécsi, phase 2; the polygons of
+    /// Kanamori et al.). No ray continues beyond it.
     ///
     /// # Errors
     /// When the image's size differs or a distance is negative or NaN.
@@ -252,7 +252,7 @@ impl View {
         Ok(self)
     }
 
-    /// The same image size and solid scene, seen by another camera.
+    /// The same image size and opaque scene, seen by another camera.
     #[must_use]
     pub fn with_camera(&self, camera: Camera) -> Self {
         Self { camera, ..self.clone() }
@@ -278,13 +278,13 @@ impl View {
         self.width as usize * self.height as usize
     }
 
-    /// Distances of the solid scene, if the view has one.
+    /// Distances of the opaque scene, if the view has one.
     pub fn opaque_distance(&self) -> Option<&[f32]> {
         self.opaque_distance.as_deref()
     }
 
     /// The view's rays, row by row from the top left: exact directions, rounded once. They end where
-    /// the solid scene does. Made on rayon's current pool.
+    /// the opaque scene does. Made on rayon's current pool.
     pub fn rays(&self) -> Vec<Ray> {
         let Self { camera, width, height, .. } = self;
         // A picture has few columns and rows, and many pixels.
@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn views_check_the_solid_scene() {
+    fn views_check_the_opaque_scene() {
         let view = View::new(camera(), 2, 2).expect("legal");
         let wrong = view.clone().with_opaque_distance(Arc::from([1.0].as_slice()));
         assert_eq!(wrong, Err(ViewError::OpaqueSize { needed: 4, found: 1 }));

@@ -316,7 +316,7 @@ mod tests {
 
     #[test]
     fn core_radii_are_those_of_the_literature() {
-        // Wyvill's, field notes 3.3 and numerics: .703 at T = .2, .5 at T = .5.
+        // Wyvill's v²(5 + 4v)/9 is 1/2 at v = 3/4, so r = R/2, and 1/5 at v = 0.5062, so r = 0.7027R.
         let ball = Metaball::new(glam::Vec3::ZERO, 1.0);
         let core = |threshold| Kernel::Wyvill.core_radius(&ball, threshold).expect("below 1");
         approx::assert_abs_diff_eq!(core(0.2), 0.7027, epsilon = 1e-4);

@@ -1,20 +1,48 @@
-//! Metaball fields, an exact reference, and the contract of the methods that draw them.
+//! Metaball scenes and their exact first hits, and what methods that draw them on a GPU share.
 //!
-//! Metaball i adds qᵢ·k(|x − pᵢ|²/Rᵢ²) to a field; its kernel k is zero outside the support radius
-//! Rᵢ. The surface of a [`Scene`] is where the field equals the threshold T, the solid where it is
-//! T or more.
+//! Metaball i has a centre pᵢ, a support radius Rᵢ and a strength qᵢ > 0. It adds qᵢ·k(|x − pᵢ|²/Rᵢ²) to
+//! a field F at x. The [`Kernel`] k falls from 1 at the centre to 0 at distance Rᵢ and stays 0 outside. The
+//! solid of a [`Scene`] is where F ≥ T, its threshold; the surface is where F = T.
+//!
+//! ```
+//! use metaball_core::glam::Vec3;
+//! use metaball_core::reference::Oracle;
+//! use metaball_core::{Camera, Kernel, Metaball, Scene, View};
+//!
+//! let balls = [Metaball::new(Vec3::ZERO, 1.0), Metaball::new(Vec3::X, 0.8)];
+//! let scene = Scene::new(balls, Kernel::QUARTIC, 0.25)?;
+//!
+//! let camera = Camera::framing(&scene.bounds(), Vec3::Z);
+//! let view = View::new(camera, 64, 48)?;
+//! let truths = Oracle::new(&scene).first_hits(&view.rays());
+//! let hits = truths.iter().filter(|truth| truth.t.is_finite()).count();
+//! println!("{hits} of {} rays hit", truths.len());
+//! # assert_eq!(hits, 320);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! # Conventions
-//! The world is right-handed; lengths are in the units of the scene's file. A [`Ray`] has a
-//! direction that is unit to rounding, and t counts along it. The first hit is the smallest t > 0
-//! where the field along the ray rises from below T to T; a ray that starts at T or above is
-//! [`Verdict::Inside`] at t = 0. Normals point out of the solid. Images are stored row by row from
-//! the top left.
+//! - *Space*: the world is right-handed. Lengths are scene units, whatever the scene's author measured in;
+//!   strengths, the field and T have no unit.
+//! - *Rays*: the points `origin + t * direction` with 0 ≤ t ≤ `t_max`. Directions are unit to rounding and
+//!   never normalised again, so that t means the same, in scene units, to every method and to the
+//!   reference ([`Ray`]).
+//! - *Verdicts*: a ray is a [`Hit`](Verdict::Hit) at the smallest t where F rises from below T to T, a
+//!   [`Miss`](Verdict::Miss) where F stays below T, and [`Inside`](Verdict::Inside) at t = 0 where it starts
+//!   with F ≥ T. A method whose arithmetic cannot decide says [`Undecided`](Verdict::Undecided).
+//! - *Normals* are unit vectors out of the solid, against the gradient of F.
+//! - *Images* are stored row by row from the top left. Colours are sRGB-encoded where they are stored and
+//!   linear where they are blended or lit.
+//! - *Precision*: scenes and rays are stored in f32. [`mod@reference`] takes these numbers as exact and answers
+//!   in f64; a method that computes in f32 is compared with it.
 //!
-//! # Features
-//! Without features this crate knows nothing of GPUs. Feature `gpu` adds the module `gpu`: the
-//! adapter, frames with timed passes, hit buffers, shared shading, and the trait `IsoRenderer` that
-//! methods implement.
+//! # Contents
+//! - [`Scene`] of [`Metaball`]s, a [`Kernel`] and a threshold; [`Aabb`], [`Color`].
+//! - [`Camera`] and [`View`], which make primary [`Ray`]s; [`Hit`], what is found along one.
+//! - [`mod@reference`]: exact first hits on the CPU, for comparison.
+//! - [`Picture`], [`Image`]: what pictures show, and their pixels; [`Work`]: what a pixel cost.
+//! - With feature `gpu`, module `gpu`: adapter, frames with timed passes, buffers of hits, shading, and the
+//!   trait `IsoRenderer` that methods implement. Without it the crate depends on no graphics API.
 
 mod aabb;
 mod ball;
@@ -40,3 +68,6 @@ pub use scene::{
     Generality, KernelForm, RADIUS_LIMITS, Scene, SceneError, check_ball, check_field,
 };
 pub use work::{Work, WorkKind};
+
+/// The version of glam that this crate is built on.
+pub use glam;

@@ -1,31 +1,31 @@
-//! Rays, and what is found along them.
+//! Rays and hits.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-/// A ray as every method, shader and reference sees it, bit for bit: the points
-/// `origin + t * direction` with 0 ≤ t ≤ `t_max`.
+/// The points `origin + t * direction` with 0 ≤ t ≤ `t_max`; the same bit for bit to every method and
+/// to the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
     /// Start, world space, scene units.
     pub origin: Vec3,
-    /// Direction, unit to rounding (6e-8). Never normalised again: t counts in this vector.
+    /// Direction, unit to rounding (6e-8). Never normalised again: t counts this vector.
     pub direction: Vec3,
-    /// Where an opaque thing ends the ray; [`NO_LIMIT`] where nothing does.
+    /// Greatest t, scene units, where something opaque ends the ray; [`NO_LIMIT`] where nothing does.
     pub t_max: f32,
 }
 
 impl Ray {
-    /// A ray that nothing opaque ends.
+    /// A ray without an end.
     pub const fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, direction, t_max: NO_LIMIT }
     }
 }
 
-/// The greatest finite f32: WGSL has no infinity to rely on.
+/// `t_max` of rays without an end: the greatest finite f32, since WGSL need not have infinities.
 pub const NO_LIMIT: f32 = f32::MAX;
 
-/// What is known of a ray.
+/// Whether a ray meets the solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Verdict {
@@ -35,20 +35,21 @@ pub enum Verdict {
     Hit = 1,
     /// The field is T or more where the ray starts; the hit is there, at t = 0.
     Inside = 2,
-    /// Arithmetic could not tell, to the last float. Only certified variants say so.
+    /// Arithmetic could not decide, not even at the last float. Only methods that certify their answers
+    /// report it.
     Undecided = 3,
 }
 
-/// What a method found along one ray.
+/// What a method finds along one ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// What is known of the ray.
+    /// Whether the ray meets the solid.
     pub verdict: Verdict,
-    /// Whether a published rule for trouble made this pixel, in place of the method proper.
+    /// Whether a rule that the method's paper publishes for trouble made this hit.
     pub fallback: bool,
-    /// Distance along the ray in scene units; infinite for a miss.
+    /// t of the hit, scene units: 0 inside, +∞ for a miss.
     pub t: f32,
-    /// Unit vector out of the surface, against the field's gradient; zero for a miss.
+    /// Unit vector out of the solid, against the field's gradient, world space; zero for a miss.
     pub normal: Vec3,
 }
 
@@ -63,8 +64,9 @@ impl Hit {
     }
 }
 
-/// A hit as shaders write it, sixteen bytes: WGSL's `Hit` of `core/hit.wgsl`. The normal is folded
-/// onto an octahedron (Cigolle et al. 2014) in full f32, which keeps it to 1e-7.
+/// A hit as shaders write it, sixteen bytes: WGSL's `Hit` of `shaders/wgsl/core/hit.wgsl`. The normal is
+/// folded onto an octahedron (Cigolle et al. 2014, "A survey of efficient representations for independent
+/// unit vectors") in full f32, which keeps it to 1e-7.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct PackedHit {
@@ -81,14 +83,13 @@ impl PackedHit {
     /// The bit of `status` that marks a fallback pixel.
     pub const FALLBACK: u32 = 1 << 8;
 
-    /// What a ray that goes on from the hit must keep from it at its start, along the normal, to be
-    /// on the side of the surface that it leaves on: scene units, rounded up. 0 where the method does
-    /// not tell.
+    /// How far from the hit, along the normal, a secondary ray must start to be certainly on its side of
+    /// the surface: scene units, rounded up. 0 where the method does not report it.
     pub fn clearance(self) -> f32 {
         f32::from_bits(self.status & !0x1ff)
     }
 
-    /// Unpacks what a shader wrote. A status that no shader writes reads as undecided.
+    /// The hit that a shader wrote. A status that no shader writes reads as undecided.
     pub fn unpack(self) -> Hit {
         let fallback = self.status & Self::FALLBACK != 0;
         let verdict = match self.status & 0xff {

@@ -1,4 +1,4 @@
-//! A scene: balls, one kernel, one threshold, and nothing that no scene uses.
+//! A scene: balls, one kernel, one threshold.
 
 use glam::Vec3;
 use thiserror::Error;
@@ -7,9 +7,9 @@ use crate::{Aabb, Color, Kernel, Metaball, Support};
 
 /// Balls, their kernel and the threshold T: the surface is where the field equals T.
 ///
-/// Renderers are made for what all balls have in common: a scene in which every strength is 1 keeps no
-/// strengths, one without colours keeps no colours, and neither reaches a shader; one radius, like the
-/// kernel, is compiled in. [`Scene::generalized`] undoes that.
+/// Renderers are specialised for what all balls share: a scene in which every strength is 1 stores no
+/// strengths, one without colours stores no colours, and neither reaches a shader; one radius, like the
+/// kernel, is compiled in. [`Scene::generalized`] undoes that, to measure what it saves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     supports: Vec<Support>,
@@ -21,19 +21,19 @@ pub struct Scene {
     threshold: f32,
 }
 
-/// How much of the kernel a renderer is made for.
+/// How much of the kernel is compiled into renderers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum KernelForm {
-    /// All of it.
+    /// The kernel with its exponent.
     #[default]
     Known,
-    /// The family of power kernels; it reads the exponent.
+    /// That it is a power kernel; the exponent is read.
     AnyExponent,
-    /// Nothing; it reads which kernel it is.
+    /// Nothing: which kernel it is, is read.
     AnyKernel,
 }
 
-/// What a renderer can be made to read as if it could be otherwise, although a scene leaves no choice.
+/// What renderers read from a generalised scene, although it could be compiled in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Generality {
     /// The kernel, and its exponent.
@@ -54,10 +54,10 @@ impl Generality {
         [Self::Kernel, Self::Exponent, Self::Radii, Self::Strengths, Self::Colors];
 }
 
-/// Least and greatest support radius: the square and its inverse are normal f32 numbers.
+/// Least and greatest support radius, scene units: the square and its inverse are normal f32 numbers.
 pub const RADIUS_LIMITS: (f32, f32) = (1e-18, 1e18);
 
-/// Why something is no scene. A ball is named by its index, from 0.
+/// Why balls, kernel and threshold are no scene. A ball is named by its index, from 0.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -108,7 +108,7 @@ pub enum SceneError {
 }
 
 impl Scene {
-    /// Checks and stores the balls. No balls at all is a legal scene: an empty picture.
+    /// Checks and stores the balls. A scene without balls is legal: its picture is empty.
     ///
     /// # Errors
     /// Names the first ball that is refused, or the threshold.
@@ -169,10 +169,8 @@ impl Scene {
         Ok(self)
     }
 
-    /// The same scene, told as if it needed more: renderers read what they could have been made for.
-    /// It looks the same, but for blended colours where there were none, all white.
-    ///
-    /// What that costs is what specialising saves.
+    /// The same scene, for which renderers read what could be compiled in. Hits are the same; colours,
+    /// where there were none, are white. What it costs is what specialisation saves.
     #[must_use]
     pub fn generalized(mut self, generality: Generality) -> Self {
         match generality {
@@ -241,7 +239,7 @@ impl Scene {
         self.kernel
     }
 
-    /// How much of the kernel renderers are made for.
+    /// How much of the kernel is compiled into renderers.
     pub fn kernel_form(&self) -> KernelForm {
         self.kernel_form
     }

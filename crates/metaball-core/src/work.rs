@@ -1,10 +1,11 @@
-//! Work counters.
+//! Work counters: what a pixel cost, apart from time.
 
 use std::fmt;
 
 use bytemuck::{Pod, Zeroable};
 
-/// What one pixel cost: WGSL's `Work` of `work/counted.wgsl`. Exists only while counting.
+/// What one pixel cost, 32 bytes: WGSL's `Work` of `shaders/wgsl/work/record.wgsl`. Exists only while
+/// counting.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct Work {
@@ -12,19 +13,19 @@ pub struct Work {
     pub nodes: u32,
     /// Intersection tests between the ray and a leaf, layer or interval.
     pub leaf_tests: u32,
-    /// Balls looked at.
+    /// Balls tested against the ray.
     pub balls: u32,
     /// Evaluations of one ball's kernel.
     pub evaluations: u32,
     /// Steps of a root finder.
     pub iterations: u32,
-    /// Peeled layers or list entries gone through.
+    /// Peeled layers or list entries visited.
     pub layers: u32,
-    /// Interior nodes on the longest way that was gone down from a tree's root; 0 from methods without a
-    /// tree. In the unit of `depth` in the statistics of a tree, which is its bound.
+    /// Depth of the deepest node visited: interior nodes between it and a tree's root. Bounded by `depth` in
+    /// the statistics of the tree; 0 from methods without a tree.
     pub depth: u32,
-    /// Most steps of a root finder in one search; 0 from methods that do not say where a search
-    /// ends. No sum over the picture means anything, so it is no [`WorkKind`].
+    /// Most steps of a root finder in one search; 0 from methods that do not mark where a search ends. A
+    /// maximum, which cannot be summed over the picture, so it is no [`WorkKind`].
     pub longest_search: u32,
 }
 

@@ -1,4 +1,4 @@
-//! Choosing an adapter, and saying what it is.
+//! Choosing an adapter, and describing it.
 
 use std::fmt;
 
@@ -7,8 +7,8 @@ use thiserror::Error;
 /// Which adapter to draw with.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum AdapterChoice {
-    /// As wgpu's users expect: `WGPU_ADAPTER_NAME`, `WGPU_BACKEND` and `WGPU_POWER_PREF`, and where
-    /// they say nothing the fastest adapter.
+    /// By wgpu's environment variables `WGPU_ADAPTER_NAME`, `WGPU_BACKEND` and `WGPU_POWER_PREF`;
+    /// where they are not set, the fastest adapter.
     #[default]
     Environment,
     /// The first adapter whose name contains this text, whatever the case.
@@ -17,24 +17,24 @@ pub enum AdapterChoice {
     Software,
 }
 
-/// Why there is no device.
+/// Why no adapter was opened.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// No adapter at all, or none that was asked for.
+    /// There is no adapter, or none that was chosen.
     #[error("no graphics adapter{}{}\n{INSTALL_SOFTWARE_ADAPTER}", for_choice(choice), list(found))]
     NoAdapter {
-        /// What was asked for.
+        /// The choice.
         choice: AdapterChoice,
         /// Names of the adapters there are.
         found: Vec<String>,
     },
-    /// The adapter gave no device.
+    /// The adapter refused to open a device.
     #[error("adapter {adapter}: {reason}")]
     NoDevice {
         /// Name of the adapter.
         adapter: String,
-        /// wgpu's words.
+        /// wgpu's text.
         reason: String,
     },
 }
@@ -59,16 +59,16 @@ fn list(found: &[String]) -> String {
     if found.is_empty() { String::new() } else { format!("; found {}", found.join(", ")) }
 }
 
-/// What is being drawn with. Printed, it is one line a fact.
+/// An adapter, its driver and its limits. Printed, it is one line a fact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AdapterReport {
     /// The adapter's name.
     pub name: String,
     /// The API it is driven by, such as `vulkan`.
     pub backend: String,
-    /// Driver and its version, in the driver's words.
+    /// Driver and its version, as the driver names them.
     pub driver: String,
-    /// What kind of processor it is; software adapters are `Cpu`.
+    /// The kind of processor; software adapters are `Cpu`.
     pub kind: wgpu::DeviceType,
     /// Whether passes can be timed.
     pub timestamps: bool,
@@ -81,7 +81,7 @@ pub struct AdapterReport {
 }
 
 impl AdapterReport {
-    /// Whether shaders run on the CPU, so that times say nothing of a GPU.
+    /// Whether shaders run on the CPU: times are not those of a GPU.
     pub fn is_software(&self) -> bool {
         self.kind == wgpu::DeviceType::Cpu
     }
@@ -125,7 +125,7 @@ impl fmt::Display for AdapterReport {
     }
 }
 
-/// The adapter asked for.
+/// The adapter of this choice.
 pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> {
     let instance =
         wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_missing_adapter_says_what_to_do() {
+    fn a_missing_adapter_says_what_to_install() {
         let nonsense = AdapterChoice::Named("Voodoo".to_owned());
         assert!(matches!(choose(&nonsense), Err(GpuError::NoAdapter { .. })));
         let error = GpuError::NoAdapter { choice: nonsense, found: vec!["llvmpipe".to_owned()] };

@@ -1,6 +1,6 @@
 //! Free rays on the device, one a pixel, with their answers.
 
-use super::layout::group;
+use super::layout::bind_group;
 use super::ray_list::RayList;
 use super::{Frame, FreeRay, Gpu, RayQuery, RenderError, Specialization, Targets, free_ray_layout};
 use crate::{Color, Hit, PackedHit};
@@ -45,7 +45,7 @@ impl RayBatch {
             ..Specialization::without_balls()
         };
         let layout = free_ray_layout(gpu, &spec);
-        let bind_group = gpu.checked(|| group(gpu, "free rays", &layout, &buffers))?;
+        let bind_group = gpu.checked(|| bind_group(gpu, "free rays", &layout, &buffers))?;
         Ok(Self { rays, hits, colors, list, bind_group })
     }
 

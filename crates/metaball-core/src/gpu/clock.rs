@@ -8,7 +8,7 @@ use super::{FrameStatus, Gpu, RenderError};
 /// timed.
 const QUERIES: u32 = 4096;
 
-/// Where the status stands in the staging buffer: behind all timestamps.
+/// Offset of the status in the staging buffer, in bytes: behind all timestamps.
 const STATUS_OFFSET: u64 = QUERIES as u64 * size_of::<u64>() as u64;
 
 /// The query set of a frame's passes, with what it takes to read it.
@@ -20,7 +20,7 @@ pub(super) struct Clock {
     nanoseconds_per_tick: f32,
 }
 
-/// A pass's place in the query set.
+/// The queries of a pass, by its number.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TimedPass(u32);
 
@@ -75,7 +75,7 @@ impl Clock {
         encoder.copy_buffer_to_buffer(status, 0, &self.staging, STATUS_OFFSET, status.size());
     }
 
-    /// What the copies brought, once they are done: the status, and each timed pass's duration.
+    /// The status and each timed pass's duration, once the copies are done.
     pub(super) fn read(
         &self,
         gpu: &Gpu,
@@ -87,7 +87,7 @@ impl Clock {
             let (stamps, _) = stamps.split_at(passes as usize * 2 * size_of::<u64>());
             let stamps: Vec<u64> = bytemuck::pod_collect_to_vec(stamps);
             let duration = |pair: &[u64]| {
-                // A clock that is set back inside a pass is a driver's fault: no time at all.
+                // A clock that runs backwards inside a pass is a fault of the driver: no time at all.
                 let ticks = pair[1].saturating_sub(pair[0]);
                 let nanoseconds = ticks as f64 * f64::from(self.nanoseconds_per_tick);
                 Duration::from_nanos(nanoseconds as u64)

@@ -11,9 +11,9 @@ use super::error::RenderError;
 
 /// A device with its queue. Made once; everything else borrows it.
 ///
-/// What wgpu complains of does not panic: the first complaint is kept, and the next function of
-/// this module that returns a [`RenderError`] returns it. With several threads on one device, it
-/// reaches whichever asks first.
+/// An error of wgpu does not panic: the first is kept, and the next function of this module that can
+/// fail returns it as a [`RenderError`]. With several threads on one device, that may be another
+/// thread's.
 #[derive(Debug)]
 pub struct Gpu {
     /// The device.
@@ -21,17 +21,17 @@ pub struct Gpu {
     /// Its queue.
     pub queue: wgpu::Queue,
     report: AdapterReport,
-    complaint: Arc<Mutex<Option<RenderError>>>,
+    raised: Arc<Mutex<Option<RenderError>>>,
     code: AtomicU64,
 }
 
 impl Gpu {
-    /// Opens the adapter. Of its features only timestamps are asked for, if it has them; of its
-    /// limits those that bound the size of a scene and of a picture, the number of storage buffers
-    /// of a shader, and the targets of a pass.
+    /// Opens an adapter, with timestamps if it has them and no other feature, and with its own limits
+    /// on the size of a scene and of a picture, on the storage buffers of a shader, and on the targets
+    /// of a pass.
     ///
     /// # Errors
-    /// When there is no such adapter; the text says how to get one.
+    /// When there is no such adapter; the text says what to install.
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
         let adapter = choose(choice)?;
         let info = adapter.get_info();
@@ -59,20 +59,20 @@ impl Gpu {
         Ok(Self::of_device(&adapter, device, queue))
     }
 
-    /// Draws with a device that a program has opened itself, on the adapter it was opened on.
-    /// Scenes and pictures are bounded by the device's limits; passes are timed where it has
-    /// timestamps. The device's handlers for errors that no scope catches and for its loss are
-    /// replaced: such errors are kept for [`Gpu::checked`].
+    /// Takes a device that the caller has opened, with the adapter that it was opened on. Scenes and
+    /// pictures are bounded by the device's limits; passes are timed where it has timestamps. The
+    /// device's handlers for uncaptured errors and for its loss are replaced: such errors are kept for
+    /// [`Gpu::checked`].
     pub fn of_device(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let timestamps = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         let report = AdapterReport::new(&adapter.get_info(), &device.limits(), timestamps);
-        let complaint = Arc::default();
-        listen(&device, &complaint);
-        Self { device, queue, report, complaint, code: AtomicU64::new(0) }
+        let raised = Arc::default();
+        listen(&device, &raised);
+        Self { device, queue, report, raised, code: AtomicU64::new(0) }
     }
 
-    /// A device for a test. Without an adapter the test is told to do nothing and says so on the
-    /// terminal; where the environment sets `REQUIRE_GPU` it fails instead.
+    /// A device for a test. Without an adapter it returns `None` and prints the test's name as ignored;
+    /// where the environment sets `REQUIRE_GPU` it panics instead.
     ///
     /// # Panics
     /// When there is no device and `REQUIRE_GPU` is set.
@@ -92,13 +92,13 @@ impl Gpu {
         }
     }
 
-    /// What is being drawn with.
+    /// The adapter, its driver and its limits.
     pub fn report(&self) -> &AdapterReport {
         &self.report
     }
 
-    /// Code of all shaders made on this device so far, as
-    /// [`code_size`](metaball_shaders::code_size) counts it.
+    /// Size of all shaders made on this device so far, in the unit of
+    /// [`code_size`](metaball_shaders::code_size).
     pub fn code(&self) -> u64 {
         self.code.load(Ordering::Relaxed)
     }
@@ -107,23 +107,24 @@ impl Gpu {
         self.code.fetch_add(size, Ordering::Relaxed);
     }
 
-    /// Runs work on the device and returns what it made, unless wgpu complained.
+    /// Runs `work`, which calls wgpu, and returns its result.
     ///
     /// # Errors
-    /// wgpu's complaint.
+    /// The first error that wgpu raised since errors were last checked.
     pub fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T, RenderError> {
         let made = work();
-        match self.complaint.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            Some(complaint) => Err(complaint),
+        match self.raised.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            Some(raised) => Err(raised),
             None => Ok(made),
         }
     }
 
-    /// An empty buffer that can be bound as storage, copied from and copied to, and whatever
-    /// `usages` adds. No bytes become four: a binding cannot be empty.
+    /// A buffer of zeros that can be bound as storage, copied from and copied to, and used as
+    /// `usages` adds. Its size is `bytes` rounded up to a multiple of four, and at least four: a
+    /// binding cannot be empty. `what` names it in errors and in wgpu's tools.
     ///
     /// # Errors
-    /// When the adapter cannot bind so many bytes, or has not got them.
+    /// When the adapter cannot bind so many bytes, or has too little memory.
     pub fn storage(
         &self,
         what: &'static str,
@@ -147,7 +148,7 @@ impl Gpu {
         })
     }
 
-    /// A storage buffer that holds the elements; room for one when there are none.
+    /// A storage buffer that holds the elements; the size of one when there are none.
     ///
     /// # Errors
     /// As [`Gpu::storage`].
@@ -163,8 +164,8 @@ impl Gpu {
         Ok(buffer)
     }
 
-    /// Everything in a buffer, once the device has done all it was given. For results, not for
-    /// frames: it waits, and for the while needs as many bytes again.
+    /// The contents of a buffer, after all that was submitted. For results, not inside frames: it
+    /// waits, and holds as many bytes again meanwhile.
     ///
     /// # Errors
     /// When the device fails.
@@ -184,7 +185,7 @@ impl Gpu {
         self.read_mapped(&staging, |bytes| bytemuck::pod_collect_to_vec(bytes))
     }
 
-    /// Maps a buffer, hands over its bytes, and unmaps it.
+    /// Maps a buffer, passes its bytes to `read`, and unmaps it.
     pub(super) fn read_mapped<T>(
         &self,
         buffer: &wgpu::Buffer,
@@ -218,13 +219,13 @@ impl Gpu {
     }
 }
 
-/// Keeps the first complaint, in place of wgpu's panic.
-fn listen(device: &wgpu::Device, complaint: &Arc<Mutex<Option<RenderError>>>) {
+/// Keeps the first error, in place of wgpu's panic.
+fn listen(device: &wgpu::Device, raised: &Arc<Mutex<Option<RenderError>>>) {
     let keep = |slot: &Mutex<Option<RenderError>>, error: RenderError| {
         log::error!("{error}");
         slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
     };
-    let slot = Arc::clone(complaint);
+    let slot = Arc::clone(raised);
     device.on_uncaptured_error(Arc::new(move |error| {
         let text = error.to_string();
         keep(
@@ -236,7 +237,7 @@ fn listen(device: &wgpu::Device, complaint: &Arc<Mutex<Option<RenderError>>>) {
             },
         );
     }));
-    let slot = Arc::clone(complaint);
+    let slot = Arc::clone(raised);
     device.set_device_lost_callback(move |reason, text| {
         // Dropping a device is no loss.
         if reason != wgpu::DeviceLostReason::Destroyed {

@@ -1,11 +1,11 @@
-//! What can go wrong with a device, a frame or a method.
+//! Errors of devices, frames and methods.
 
 use metaball_shaders::ComposeError;
 use thiserror::Error;
 
 use super::FrameStatus;
 
-/// Why something on the device was not made or not drawn.
+/// Why something was not made on a device, or not drawn.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -15,7 +15,7 @@ pub enum RenderError {
     /// A buffer or binding would exceed what the adapter allows.
     #[error("{what}: needed {needed_bytes} bytes, this adapter binds at most {limit_bytes}")]
     TooLarge {
-        /// What was to be stored.
+        /// What it was to hold.
         what: &'static str,
         /// Its size.
         needed_bytes: u64,
@@ -32,7 +32,7 @@ pub enum RenderError {
         /// The adapter's limit.
         limit: u32,
     },
-    /// A view and the targets it is to be drawn to differ in size.
+    /// A view differs in size from the targets of its frame.
     #[error(
         "view: needed the targets' size of {} × {} pixels, found {} × {}",
         needed.0, needed.1, found.0, found.1
@@ -43,7 +43,7 @@ pub enum RenderError {
         /// Width and height of the view.
         found: (u32, u32),
     },
-    /// An image of hits and the targets it is written to differ in size.
+    /// An image of hits differs in size from the targets that it is written to.
     #[error("hits: needed one for each of {needed} pixels, found {found}")]
     HitCount {
         /// Pixels of the targets.
@@ -51,15 +51,15 @@ pub enum RenderError {
         /// Hits given.
         found: usize,
     },
-    /// More rays than a batch has room for.
+    /// More rays than a batch can hold.
     #[error("rays of a batch: needed at most {needed}, found {found}")]
     RayCount {
-        /// Room.
+        /// The batch's capacity.
         needed: usize,
         /// Rays given.
         found: usize,
     },
-    /// A frame was begun on targets that another frame still uses.
+    /// A frame was begun on targets on which another frame is not finished.
     #[error("targets: needed no other frame on them, found one begun and not finished")]
     TargetsInUse,
     /// A picture of something that the targets were not made to hold.
@@ -90,33 +90,33 @@ pub enum RenderError {
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// A frame was not whole, and making room did not help.
+    /// A frame was incomplete, and larger capacities did not help.
     #[error(
-        "method {method}: {} rays or pixels without a final answer, room needed {:?}",
+        "method {method}: {} rays or pixels without a final answer, capacities needed {:?}",
         status.unfinished, status.needed
     )]
     Incomplete {
         /// Name of the method.
         method: &'static str,
-        /// What the last frame said.
+        /// Status of the last frame.
         status: FrameStatus,
     },
     /// The device ran out of memory.
     #[error("device out of memory: {text}")]
     OutOfMemory {
-        /// wgpu's words.
+        /// wgpu's text.
         text: String,
     },
     /// wgpu refused a call: a mistake in a shader, layout or pass.
     #[error("refused by wgpu: {text}")]
     Refused {
-        /// wgpu's words.
+        /// wgpu's text.
         text: String,
     },
-    /// The device went away, or its driver failed.
+    /// The device was lost, or its driver failed.
     #[error("device lost: {text}")]
     DeviceLost {
-        /// wgpu's words.
+        /// wgpu's text.
         text: String,
     },
 }

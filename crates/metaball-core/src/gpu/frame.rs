@@ -1,15 +1,13 @@
-//! One frame: a view, its passes, their times, and whether the picture is whole.
+//! One frame: a view, its passes and their times.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use bytemuck::{Pod, Zeroable};
-
 use super::targets::ViewUniform;
-use super::{Gpu, RenderError, Targets};
+use super::{FrameStatus, Gpu, RenderError, Targets};
 use crate::View;
 
-/// A frame being recorded. Passes are opened here, so that none goes untimed or unnamed.
+/// A frame being recorded. Opens all passes, so that each has a label and a time.
 #[derive(Debug)]
 pub struct Frame<'a> {
     gpu: &'a Gpu,
@@ -23,37 +21,18 @@ pub struct Frame<'a> {
     _lease: Lease<'a>,
 }
 
-/// What a finished frame says.
+/// Times and status of a finished frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameReport {
     /// Wall time from the beginning of the frame to the device's fence.
     pub wall: Duration,
-    /// Time of each label, summed over its passes, in the order of first use. `cpu:` labels are
-    /// host time. Only those where the adapter cannot time passes.
+    /// Time of each label, summed over its passes, in the order of first use. Labels that begin with
+    /// `cpu:` are host time, and the only ones where the adapter cannot time passes.
     pub passes: Vec<(String, Duration)>,
-    /// Passes that the adapter could not time, or that were more than a query set holds.
+    /// Passes without a time: the adapter cannot time passes, or there were more than 2048.
     pub untimed_passes: u32,
-    /// Whether the picture is whole.
+    /// Whether the frame is complete.
     pub status: FrameStatus,
-}
-
-/// Whether a frame is whole, and the room it would have taken: WGSL's `Status` of
-/// `core/status.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
-pub struct FrameStatus {
-    /// Rays or pixels without a final answer.
-    pub unfinished: u32,
-    /// Largest room asked for, 0 where none was; the method names the slots.
-    pub needed: [u32; 4],
-}
-
-impl FrameStatus {
-    /// Whether every ray has its final answer. What is not complete is never shown, compared or
-    /// timed.
-    pub fn is_complete(&self) -> bool {
-        self.unfinished == 0
-    }
 }
 
 /// Attachments of a render pass.
@@ -116,17 +95,17 @@ impl<'a> Frame<'a> {
         self.gpu
     }
 
-    /// What the frame writes to.
+    /// The targets that the frame writes.
     pub fn targets(&self) -> &'a Targets {
         self.targets
     }
 
-    /// What is being drawn.
+    /// The view that the frame draws.
     pub fn view(&self) -> &'a View {
         self.view
     }
 
-    /// Records a compute pass.
+    /// Records a compute pass. Times of passes with one label are summed.
     pub fn compute(
         &mut self,
         label: &'static str,
@@ -145,7 +124,7 @@ impl<'a> Frame<'a> {
         }));
     }
 
-    /// Records a render pass.
+    /// Records a render pass. Times of passes with one label are summed.
     pub fn render(
         &mut self,
         label: &'static str,
@@ -169,8 +148,8 @@ impl<'a> Frame<'a> {
         }));
     }
 
-    /// Does host work that belongs to the frame, such as a sort. It stands beside the passes as
-    /// `cpu:label`.
+    /// Does host work that belongs to the frame, such as a sort. The report has its time as
+    /// `cpu:label`, next to those of the passes.
     pub fn cpu<T>(&mut self, label: &'static str, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = work();
@@ -219,7 +198,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// A frame's sole use of its targets.
+/// A frame's exclusive use of its targets.
 #[derive(Debug)]
 struct Lease<'a>(&'a AtomicBool);
 

@@ -1,4 +1,4 @@
-//! Bind groups and their layouts from short lists.
+//! Bind groups and their layouts, from lists of bindings.
 
 use super::Gpu;
 
@@ -40,8 +40,12 @@ impl<'a> From<&'a wgpu::TextureView> for Resource<'a> {
     }
 }
 
-/// A layout, by binding number.
-pub fn layout(gpu: &Gpu, label: &str, bindings: &[(u32, Binding)]) -> wgpu::BindGroupLayout {
+/// A bind group layout: what is bound, by binding number.
+pub fn bind_group_layout(
+    gpu: &Gpu,
+    label: &str,
+    bindings: &[(u32, Binding)],
+) -> wgpu::BindGroupLayout {
     use wgpu::{BindingType, BufferBindingType, ShaderStages, TextureViewDimension};
     let writers = ShaderStages::COMPUTE | ShaderStages::FRAGMENT;
     let readers = writers | ShaderStages::VERTEX;
@@ -74,8 +78,8 @@ pub fn layout(gpu: &Gpu, label: &str, bindings: &[(u32, Binding)]) -> wgpu::Bind
     })
 }
 
-/// Resources, by binding number.
-pub fn group<'a, R: Copy + Into<Resource<'a>>>(
+/// A bind group of that layout: resources, by binding number.
+pub fn bind_group<'a, R: Copy + Into<Resource<'a>>>(
     gpu: &Gpu,
     label: &str,
     layout: &wgpu::BindGroupLayout,

@@ -1,4 +1,4 @@
-//! From a scene to the shaders made for it.
+//! From a scene to the pipelines that are specialised for it.
 
 use std::borrow::Cow;
 
@@ -7,21 +7,21 @@ use metaball_shaders::{KernelModule, Module, Variant, code_size, compose, compos
 use super::{Gpu, RenderError};
 use crate::{Kernel, KernelForm, Scene};
 
-/// Key of the override constant in `exponent/compiled.wgsl`: its `@id`.
+/// Key of the override constant in `shaders/wgsl/exponent/compiled.wgsl`: its `@id`.
 ///
 /// Composition changes the names of constants, so they are set by id. Ids below 16 belong to the
 /// shared modules; methods number theirs from 16.
 const EXPONENT: &str = "0";
 
-/// The same in `support/uniform.wgsl`.
+/// The same in `shaders/wgsl/support/uniform.wgsl`.
 const RADIUS: &str = "3";
 
-/// What selects pipelines: all that shaders are specialised for.
+/// All that shaders are specialised for. Equal specialisations can share pipelines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Specialization {
     /// Falloff of the balls.
     pub kernel: Kernel,
-    /// How much of it shaders are compiled for.
+    /// How much of the kernel is compiled in.
     pub kernel_form: KernelForm,
     /// Bits of the support radius that all balls have; `None` where they have radii of their own.
     pub radius_bits: Option<u32>,
@@ -31,12 +31,13 @@ pub struct Specialization {
     pub colors: bool,
     /// Whether work is counted; never while timing.
     pub counting: bool,
-    /// Names of modules that a method prefers where several define one import path.
+    /// Names of the modules that a method chooses where several define one import path, such as
+    /// `ray/primary`.
     pub chosen: &'static [&'static str],
 }
 
 impl Specialization {
-    /// What this scene needs, and no more.
+    /// What this scene needs, and no more. `counting` adds work counters.
     pub fn of(scene: &Scene, counting: bool) -> Self {
         Self {
             kernel: scene.kernel(),
@@ -49,7 +50,7 @@ impl Specialization {
         }
     }
 
-    /// For passes that look at no ball.
+    /// For passes that read no ball.
     pub fn without_balls() -> Self {
         Self {
             kernel: Kernel::QUARTIC,
@@ -62,13 +63,13 @@ impl Specialization {
         }
     }
 
-    /// The same with a method's own choice among modules with one import path.
+    /// The same with a method's choice of modules where several define one import path.
     #[must_use]
     pub fn choosing(self, chosen: &'static [&'static str]) -> Self {
         Self { chosen, ..self }
     }
 
-    /// The modules to compose.
+    /// The modules that shaders are composed of.
     pub fn variant(&self) -> Variant {
         Variant {
             kernel: match (self.kernel_form, self.kernel) {
@@ -86,7 +87,7 @@ impl Specialization {
         }
     }
 
-    /// Override constants by id.
+    /// Values of the shared modules' override constants, by id.
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let exponent = match self.kernel {
             Kernel::Power(exponent) => Some((EXPONENT, f64::from(exponent.get()))),
@@ -97,8 +98,9 @@ impl Specialization {
     }
 }
 
-/// Composes a module and makes a pipeline of one of its entry points. `extra_constants` are the
-/// method's own, by id (from 16).
+/// Composes a module of `metaball-shaders`, by its name, and makes a compute pipeline of one of its
+/// entry points. `layouts` are those of groups 0, 1, …; `extra_constants` the override constants of
+/// the method, by id from 16 on.
 ///
 /// # Errors
 /// When the module does not compose, or wgpu refuses it.
@@ -121,16 +123,16 @@ pub fn compute_pipeline(
     )
 }
 
-/// A composed module on the device: for several entry points of one, and for raster pipelines.
+/// A composed module on the device, for pipelines of one or several of its entry points.
 #[derive(Debug)]
 pub struct Shader {
-    /// The module.
+    /// The module, for render pipelines.
     pub module: wgpu::ShaderModule,
     ids: Vec<u16>,
 }
 
 impl Shader {
-    /// Composes a module of the table.
+    /// Composes a module of `metaball-shaders`, by its name.
     ///
     /// # Errors
     /// When the module does not compose, or wgpu refuses it.
@@ -143,7 +145,7 @@ impl Shader {
         Self::of_composed(gpu, label, compose(module, &spec.variant())?)
     }
 
-    /// Composes a module from elsewhere.
+    /// Composes a module of the caller's, which may import those of `metaball-shaders`.
     ///
     /// # Errors
     /// As [`Shader::new`].
@@ -167,8 +169,8 @@ impl Shader {
         Ok(Self { module, ids })
     }
 
-    /// A compute pipeline of one entry point. `extra_constants` are the method's own, by id (from
-    /// 16).
+    /// A compute pipeline of one entry point. `layouts` are those of groups 0, 1, …;
+    /// `extra_constants` the override constants of the method, by id from 16 on.
     ///
     /// # Errors
     /// When wgpu refuses it.
@@ -197,7 +199,8 @@ impl Shader {
         })
     }
 
-    /// The specialisation's constants that this module has, and the method's own.
+    /// Values of the override constants that this module has: the specialisation's, and `extra`. For
+    /// render pipelines.
     pub fn constants<'a>(
         &self,
         spec: &Specialization,
@@ -210,7 +213,7 @@ impl Shader {
     }
 }
 
-/// The layout of pipelines with these groups, the first as group 0.
+/// The layout of pipelines with groups of these layouts, from group 0 on.
 pub fn pipeline_layout(
     gpu: &Gpu,
     label: &str,

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use bytemuck::{Pod, Zeroable};
 
-use super::layout::{Binding, group, layout};
+use super::layout::{Binding, bind_group, bind_group_layout};
 use super::pipeline::{Specialization, compute_pipeline};
 use super::{Frame, Gpu, RayQuery, RenderError};
 
@@ -39,9 +39,9 @@ impl RayList {
         let bytes = size_of::<ListHead>() as u64 + pixels * size_of::<u32>() as u64;
         let buffer = gpu.storage("listed rays", bytes, wgpu::BufferUsages::INDIRECT)?;
         let bindings = [(0, Binding::Uniform), (1, Binding::Read), (2, Binding::Write)];
-        let layout = layout(gpu, "listed rays", &bindings);
+        let layout = bind_group_layout(gpu, "listed rays", &bindings);
         let buffers = [(0, view), (1, rays), (2, &buffer)];
-        let bind_group = gpu.checked(|| group(gpu, "listed rays", &layout, &buffers))?;
+        let bind_group = gpu.checked(|| bind_group(gpu, "listed rays", &layout, &buffers))?;
         Ok(Self { buffer, layout, bind_group, pipelines: Default::default() })
     }
 

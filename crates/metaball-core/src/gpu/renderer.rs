@@ -1,36 +1,35 @@
-//! The one trait, and the loop that everyone draws with.
+//! The trait of methods, and the loop that draws a frame with one.
 
 use std::time::Duration;
 
 use super::{Frame, FrameReport, FrameStatus, Gpu, RayTracer, RenderError, Targets};
 use crate::{Scene, View};
 
-/// One way of finding, for every primary ray, the first point where the field reaches the
-/// threshold.
+/// A method that finds, for every primary ray, the first point where the field reaches the threshold.
 ///
-/// A method writes hits, and in scenes with colours the blended colour, and nothing else. Shading,
-/// clocks, counters and read-back are shared.
+/// It writes hits, and in scenes with colours the blended colour, and nothing else. Shading, clocks,
+/// counters and read-back are shared; [the module](crate::gpu#writing-a-method) shows how to write one.
 ///
-/// A renderer can go to another thread: one builds there while another draws.
+/// A renderer can be sent to another thread, to build there while another one draws.
 pub trait IsoRenderer: Send {
-    /// Stable name in file names, tables and tests: lower case, digits, dashes.
+    /// Stable name in file names, tables and tests: lower-case letters, digits, dashes.
     fn name(&self) -> &'static str;
 
-    /// Makes everything that depends on the scene alone, on host and device, replacing what was
-    /// there.
+    /// Makes everything that depends on the scene alone, on host and device, in the place of the scene
+    /// before.
     ///
     /// # Errors
     /// When the scene does not fit the adapter or the method.
     fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError>;
 
     /// Records the passes that turn the frame's rays into hits: each pixel is written, or reported
-    /// as unfinished. Does not submit, wait or read back.
+    /// as unfinished. Never submits, waits or reads back.
     ///
     /// # Errors
-    /// When a pass cannot be recorded.
+    /// When no scene was built, or a pass cannot be recorded.
     fn encode(&mut self, frame: &mut Frame<'_>) -> Result<(), RenderError>;
 
-    /// What the last frame was like beyond its times, such as the number of balls it drew, under
+    /// Properties of the last frame apart from its times, such as the number of balls drawn, under
     /// stable names. Waits for the device.
     ///
     /// # Errors
@@ -40,53 +39,54 @@ pub trait IsoRenderer: Send {
         Ok(Vec::new())
     }
 
-    /// Bytes held on the device beside those of the build report: what the picture's size and the course
-    /// of frames have asked for so far. None where nothing is kept from frame to frame.
+    /// Bytes held on the device in addition to [`BuildReport::device_bytes`]: what the size of the
+    /// picture and the frames so far have needed. 0 where nothing is kept from frame to frame.
     fn frame_bytes(&self) -> u64 {
         0
     }
 
-    /// After a frame that ran out of room, makes more. `Ok(false)`: more room would not help.
+    /// Enlarges the capacities that an incomplete frame reported as too small. `Ok(false)`: larger ones
+    /// would not help.
     ///
     /// # Errors
-    /// When there is no more room to be had.
+    /// When the adapter has no larger ones.
     fn grow(&mut self, gpu: &Gpu, status: &FrameStatus) -> Result<bool, RenderError> {
         let _ = (gpu, status);
         Ok(false)
     }
 
-    /// The method as a tracer of arbitrary rays through the scene built last; `None` where it finds
-    /// primary hits alone.
+    /// The method as a tracer of free rays through the scene built last; `None` where it finds primary
+    /// hits alone.
     fn ray_tracer(&mut self) -> Option<&mut dyn RayTracer> {
         None
     }
 }
 
-/// What building a scene took.
+/// Time and memory that the build of a scene took.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BuildReport {
-    /// Host time for the structure.
+    /// Host time for the acceleration structure.
     pub structure: Duration,
     /// Host time for composing shaders and making pipelines.
     pub pipelines: Duration,
-    /// Bytes sent to the device.
+    /// Bytes uploaded to the device.
     pub upload_bytes: u64,
-    /// Bytes held on the device for this scene; [`IsoRenderer::frame_bytes`] tells of the rest.
+    /// Bytes held on the device for this scene; [`IsoRenderer::frame_bytes`] is what frames add.
     pub device_bytes: u64,
-    /// What the structure is like, such as its number of nodes.
+    /// Properties of the structure, such as its number of nodes, under stable names.
     pub facts: Vec<(&'static str, f64)>,
 }
 
-/// Frames redone for want of room before a method is held not to converge. Rooms are counted in 32
-/// bits, and growth to what was needed at least doubles the one that was too small: 32 doublings of
-/// each of four rooms exhaust every possibility.
+/// Frames drawn again with larger capacities before a method is held not to converge. Capacities are
+/// counted in 32 bits, and growing to what was needed at least doubles the one that was too small: 32
+/// doublings of each of four capacities exhaust every possibility.
 const MOST_REDONE: u32 = 4 * 32;
 
-/// Draws the view, again with more room where a frame was not whole, and reports on the whole frame
-/// alone.
+/// Draws the view, with larger capacities as long as the frame is incomplete. The report is that of the
+/// complete frame alone.
 ///
 /// # Errors
-/// [`RenderError::Incomplete`] when growing does not help, and whatever stops the method.
+/// [`RenderError::Incomplete`] when larger capacities do not help, and any error of the method.
 pub fn render(
     gpu: &Gpu,
     renderer: &mut dyn IsoRenderer,
@@ -96,8 +96,8 @@ pub fn render(
     render_with(gpu, renderer, targets, view, |renderer, frame| renderer.encode(frame))
 }
 
-/// As [`render`], with passes of the caller's: `encode` records them, once for each time that the
-/// frame is drawn.
+/// As [`render`], with passes of the caller's: `encode` records them in place of
+/// [`IsoRenderer::encode`], once for each time that the frame is drawn.
 ///
 /// # Errors
 /// As [`render`].

@@ -2,11 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::layout::{Binding, group, layout};
+use super::layout::{Binding, bind_group, bind_group_layout};
 use super::{Gpu, RenderError, Specialization};
 use crate::{Kernel, KernelForm, Scene};
 
-/// What a scene needs on the device, once for all methods: group 1 of their pipelines.
+/// A scene on the device: group 1 of the pipelines that read its balls.
 ///
 /// 16 bytes a ball; 4 more where strengths vary, 4 more where there are colours.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ pub struct SceneBuffers {
     bytes: u64,
 }
 
-/// Facts of the whole scene: WGSL's `SceneHeader` of `core/scene.wgsl`.
+/// What all balls share: WGSL's `SceneHeader` of `shaders/wgsl/core/scene.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct SceneHeader {
@@ -25,8 +25,8 @@ pub struct SceneHeader {
     pub balls: u32,
 }
 
-/// Which kernel it is, for shaders that are not compiled for it: WGSL's `KernelRead` of
-/// `kernel/read.wgsl`.
+/// The kernel, for shaders that it is not compiled into: WGSL's `KernelRead` of
+/// `shaders/wgsl/kernel/read.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct KernelRead {
@@ -72,12 +72,12 @@ impl SceneBuffers {
         buffers.extend(colors.as_ref().map(|buffer| (2, buffer)));
         buffers.extend(kernel.as_ref().map(|buffer| (4, buffer)));
         let layout = scene_layout(gpu, &Specialization::of(scene, false));
-        let bind_group = gpu.checked(|| group(gpu, "scene", &layout, &buffers))?;
+        let bind_group = gpu.checked(|| bind_group(gpu, "scene", &layout, &buffers))?;
         let bytes = buffers.iter().map(|(_, buffer)| buffer.size()).sum();
         Ok(Self { bind_group, bytes })
     }
 
-    /// Group 1.
+    /// Group 1, laid out as [`scene_layout`].
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         &self.bind_group
     }
@@ -88,11 +88,11 @@ impl SceneBuffers {
     }
 }
 
-/// Layout of group 1. What a scene has not got is not in it.
+/// Layout of group 1. It has no bindings for what the specialisation leaves out.
 pub fn scene_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
     let mut bindings = vec![(0, Binding::Read), (3, Binding::Uniform)];
     bindings.extend(spec.strengths.then_some((1, Binding::Read)));
     bindings.extend(spec.colors.then_some((2, Binding::Read)));
     bindings.extend((spec.kernel_form != KernelForm::Known).then_some((4, Binding::Uniform)));
-    layout(gpu, "scene", &bindings)
+    bind_group_layout(gpu, "scene", &bindings)
 }

@@ -1,6 +1,6 @@
-//! Pictures of what a frame found, the same for all methods.
+//! Pictures of hits, the same for all methods.
 
-use super::layout::{Binding, group, layout};
+use super::layout::{Binding, bind_group, bind_group_layout};
 use super::spheres::SpherePicture;
 use super::{Gpu, RenderError, Specialization, Targets, compute_pipeline, frame_layout};
 use crate::{Image, Picture, Scene, Shaded, ValueRange, View, WorkKind};
@@ -8,7 +8,7 @@ use crate::{Image, Picture, Scene, Shaded, ValueRange, View, WorkKind};
 /// Key of the override constant in `shaders/wgsl/shade/work.wgsl`: its `@id`.
 const COUNTER: &str = "1";
 
-/// Makes pictures. Not part of a frame: nobody times it, and it waits for what it draws.
+/// Makes pictures of what frames found. Not part of a frame: it is not timed, and it waits.
 #[derive(Debug)]
 pub struct Shading<'a> {
     gpu: &'a Gpu,
@@ -69,7 +69,7 @@ impl<'a> Shading<'a> {
         };
         let (frame, picture) = (
             frame_layout(gpu, &spec),
-            layout(gpu, "picture", &[(0, Binding::Write), (1, Binding::Uniform)]),
+            bind_group_layout(gpu, "picture", &[(0, Binding::Write), (1, Binding::Uniform)]),
         );
         let pipeline =
             compute_pipeline(gpu, module, module, "shade", &spec, &[&frame, &picture], constants)?;
@@ -79,7 +79,7 @@ impl<'a> Shading<'a> {
         let pixels = gpu.storage("picture", bytes, wgpu::BufferUsages::empty())?;
         let range = gpu.upload("scale of a picture", &[range], wgpu::BufferUsages::UNIFORM)?;
         gpu.checked(|| {
-            let bind_group = group(gpu, "picture", &picture, &[(0, &pixels), (1, &range)]);
+            let bind_group = bind_group(gpu, "picture", &picture, &[(0, &pixels), (1, &range)]);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
             let (across, down) = targets.workgroups();

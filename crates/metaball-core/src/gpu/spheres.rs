@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::layout::{Binding, group, layout};
+use super::layout::{Binding, bind_group, bind_group_layout};
 use super::targets::ViewUniform;
 use super::{Gpu, RenderError, Shader, Specialization, Targets, pipeline_layout};
 use crate::{Image, Scene, View};
@@ -41,8 +41,8 @@ impl SpherePicture {
     pub(super) fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, RenderError> {
         let spheres = core_spheres(scene);
         let buffer = gpu.upload("core spheres", &spheres, wgpu::BufferUsages::empty())?;
-        let view_layout = layout(gpu, "view", &[(0, Binding::Uniform)]);
-        let sphere_layout = layout(gpu, "core spheres", &[(0, Binding::Read)]);
+        let view_layout = bind_group_layout(gpu, "view", &[(0, Binding::Uniform)]);
+        let sphere_layout = bind_group_layout(gpu, "core spheres", &[(0, Binding::Read)]);
         let shader =
             Shader::new(gpu, "spheres", "shade/spheres", &Specialization::without_balls())?;
         let layouts = [&view_layout, &sphere_layout];
@@ -93,9 +93,9 @@ impl SpherePicture {
         gpu.checked(|| {
             let color = texture("picture", COLOR_FORMAT, wgpu::TextureUsages::COPY_SRC);
             let depth = texture("depth", DEPTH_FORMAT, wgpu::TextureUsages::empty());
-            let view_group = group(gpu, "view", &self.view_layout, &[(0, &uniform)]);
+            let view_group = bind_group(gpu, "view", &self.view_layout, &[(0, &uniform)]);
             let sphere_group =
-                group(gpu, "core spheres", &self.sphere_layout, &[(0, &self.spheres)]);
+                bind_group(gpu, "core spheres", &self.sphere_layout, &[(0, &self.spheres)]);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             self.record(&mut encoder, &color, &depth, &view_group, &sphere_group);
             encoder.copy_texture_to_buffer(

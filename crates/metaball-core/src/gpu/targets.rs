@@ -1,4 +1,4 @@
-//! What frames of one size write to.
+//! The buffers that frames of one size write.
 
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
@@ -7,7 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::clock::Clock;
-use super::layout::{Binding, group, layout};
+use super::layout::{Binding, bind_group, bind_group_layout};
 use super::rays::{PackedRay, RayPass};
 use super::{FrameStatus, Gpu, RenderError, Specialization};
 use crate::{Color, Hit, PackedHit, Ray, View, Work};
@@ -16,10 +16,11 @@ use crate::{Color, Hit, PackedHit, Ray, View, Work};
 /// `@workgroup_size(8, 8)`.
 pub const TILE: u32 = 8;
 
-/// Everything of one image size: rays, hits and status, and the clock of its passes; blended colours
-/// and work counters only when asked for. 32 bytes a pixel; 4 more with colours, 28 more with work.
+/// The buffers of one image size: rays, hits and status, timestamps of passes, and where they were
+/// requested blended colours and work counters. 32 bytes a pixel; 4 more with colours, 32 more with
+/// work. All images are stored row by row from the top left.
 ///
-/// One frame at a time may use them.
+/// One frame at a time uses them.
 #[derive(Debug)]
 pub struct Targets {
     width: u32,
@@ -34,11 +35,11 @@ pub struct Targets {
     pub(super) clock: Clock,
     pub(super) in_use: AtomicBool,
     free_rays: RayPass,
-    /// Made with the first view that has a solid scene.
+    /// Made with the first view that has an opaque scene.
     stopped_rays: OnceLock<RayPass>,
 }
 
-/// A view as shaders see it: WGSL's `View` of `core/view.wgsl`.
+/// A view as shaders see it: WGSL's `View` of `shaders/wgsl/core/view.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ViewUniform {
@@ -52,7 +53,7 @@ pub struct ViewUniform {
     pub height: u32,
     /// Unit vector to the top of the picture.
     pub up: Vec3,
-    /// Half a pixel's height at unit distance.
+    /// Half a pixel's height at unit distance from the eye.
     pub half_pixel: f32,
     /// Unit vector into the picture.
     pub forward: Vec3,
@@ -79,7 +80,7 @@ impl ViewUniform {
 }
 
 impl Targets {
-    /// Makes the targets of an image size.
+    /// Makes the targets of an image size, with blended colours and with work counters if wanted.
     ///
     /// # Errors
     /// When the picture has no pixels or more than the adapter can bind or dispatch.
@@ -110,7 +111,7 @@ impl Targets {
         buffers.extend(colors.as_ref().map(|buffer| (4, buffer)));
         buffers.extend(work.as_ref().map(|buffer| (5, buffer)));
         let layout = layout_of(gpu, colors.is_some(), work.is_some(), false);
-        let bind_group = gpu.checked(|| group(gpu, "frame", &layout, &buffers))?;
+        let bind_group = gpu.checked(|| bind_group(gpu, "frame", &layout, &buffers))?;
         let free_rays = RayPass::free(gpu, &view, &rays, &hits)?;
         Ok(Self {
             width,
@@ -145,7 +146,7 @@ impl Targets {
         (self.width.div_ceil(TILE), self.height.div_ceil(TILE))
     }
 
-    /// Bytes on the device, but for the clock's 64 KiB and a solid scene's 4 a pixel.
+    /// Bytes on the device, but for the clock's 64 KiB and an opaque scene's 4 a pixel.
     pub fn bytes(&self) -> u64 {
         let optional = [&self.colors, &self.work].into_iter().flatten();
         let always = [&self.view, &self.rays, &self.hits, &self.status].into_iter();
@@ -157,12 +158,12 @@ impl Targets {
         &self.view
     }
 
-    /// Group 0.
+    /// Group 0, laid out as [`frame_layout`].
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         &self.bind_group
     }
 
-    /// The rays of the last frame: 16 bytes a pixel, direction and greatest t.
+    /// One [`PackedRay`] a pixel: the rays of the last frame.
     pub fn rays(&self) -> &wgpu::Buffer {
         &self.rays
     }
@@ -172,18 +173,18 @@ impl Targets {
         &self.hits
     }
 
-    /// One sRGB-encoded [`Color`] a pixel, if asked for.
+    /// One sRGB-encoded [`Color`] a pixel, if requested.
     pub fn colors(&self) -> Option<&wgpu::Buffer> {
         self.colors.as_ref()
     }
 
-    /// One [`Work`] a pixel, if asked for.
+    /// One [`Work`] a pixel, if requested.
     pub fn work(&self) -> Option<&wgpu::Buffer> {
         self.work.as_ref()
     }
 
-    /// What the last frame found, row by row from the top left. A pixel that its method did not
-    /// write is undecided.
+    /// The hits of the last frame. A pixel that its method did not write is undecided. Waits for the
+    /// device.
     ///
     /// # Errors
     /// When the device fails.
@@ -191,8 +192,8 @@ impl Targets {
         Ok(gpu.read::<PackedHit>(&self.hits)?.into_iter().map(PackedHit::unpack).collect())
     }
 
-    /// Puts hits in the place of what the last frame found, row by row from the top left, so that
-    /// the shared shading shows them: the reference's, for one.
+    /// Replaces the hits of the last frame, so that the shared shading shows others, such as those of
+    /// the reference.
     ///
     /// # Errors
     /// When there is not one for each pixel, or the device fails.
@@ -205,7 +206,8 @@ impl Targets {
         gpu.checked(|| gpu.queue.write_buffer(&self.hits, 0, bytemuck::cast_slice(&packed)))
     }
 
-    /// The last frame's rays, bit for bit as the shaders saw them. `view` is that frame's.
+    /// The rays of the last frame, bit for bit as shaders saw them. `view` is that frame's. Waits for the
+    /// device.
     ///
     /// # Errors
     /// When the device fails.
@@ -215,7 +217,8 @@ impl Targets {
         Ok(gpu.read::<PackedRay>(&self.rays)?.into_iter().map(unpack).collect())
     }
 
-    /// The last frame's blended colours; meaningless where there is no hit.
+    /// The blended colours of the last frame, if the targets have them; meaningless where there is no
+    /// hit. Waits for the device.
     ///
     /// # Errors
     /// When the device fails.
@@ -223,7 +226,7 @@ impl Targets {
         self.colors.as_ref().map(|buffer| gpu.read(buffer)).transpose()
     }
 
-    /// What the last frame's pixels cost.
+    /// What the pixels of the last frame cost, if the targets count it. Waits for the device.
     ///
     /// # Errors
     /// When the device fails.
@@ -231,7 +234,7 @@ impl Targets {
         self.work.as_ref().map(|buffer| gpu.read(buffer)).transpose()
     }
 
-    /// The pass that makes this view's rays, with the view's solid scene on its way to the device.
+    /// The pass that makes this view's rays; uploads the view's opaque scene.
     pub(super) fn ray_pass(&self, gpu: &Gpu, view: &View) -> Result<&RayPass, RenderError> {
         let Some(distances) = view.opaque_distance() else { return Ok(&self.free_rays) };
         let pass = match self.stopped_rays.get() {
@@ -246,13 +249,13 @@ impl Targets {
     }
 }
 
-/// Layout of group 0. What a specialisation does not use is not in it.
+/// Layout of group 0. It has no bindings for what the specialisation leaves out.
 pub fn frame_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
     layout_of(gpu, spec.colors, spec.counting, false)
 }
 
-/// The same for passes that answer the rays of a [`RayBatch`](super::RayBatch): with its rays and hits in the
-/// place of the frame's, and the list of the rays that ask.
+/// Layout of group 0 for passes that answer the rays of a [`RayBatch`](super::RayBatch), with its rays and
+/// hits in place of the frame's, and at binding 6 the list of the rays to answer.
 pub fn free_ray_layout(gpu: &Gpu, spec: &Specialization) -> wgpu::BindGroupLayout {
     layout_of(gpu, spec.colors, spec.counting, true)
 }
@@ -263,5 +266,5 @@ fn layout_of(gpu: &Gpu, colors: bool, counting: bool, listed: bool) -> wgpu::Bin
     bindings.extend(colors.then_some((4, Binding::Write)));
     bindings.extend(counting.then_some((5, Binding::Write)));
     bindings.extend(listed.then_some((6, Binding::Read)));
-    layout(gpu, "frame", &bindings)
+    bind_group_layout(gpu, "frame", &bindings)
 }

@@ -3,14 +3,14 @@
 use glam::{Vec3, Vec4};
 use metaball_shaders::Module;
 
-use crate::gpu::layout::{Binding, group, layout};
+use crate::gpu::layout::{Binding, bind_group, bind_group_layout};
 use crate::gpu::{Gpu, SceneBuffers, Shader, Specialization, scene_layout};
 use crate::{Generality, Kernel, PackedHit, Scene};
 
-/// What entry `evaluate` of the module makes of each value, in a scene that it may look at.
+/// The results of entry point `evaluate` of the module for the inputs, in a scene that it may read.
 fn evaluate(gpu: &Gpu, module: &Module, scene: &Scene, inputs: &[Vec4]) -> Vec<Vec4> {
     let spec = Specialization::of(scene, false);
-    let bindings = layout(gpu, "values", &[(0, Binding::Read), (1, Binding::Write)]);
+    let bindings = bind_group_layout(gpu, "values", &[(0, Binding::Read), (1, Binding::Write)]);
     let shader = Shader::of_module(gpu, module, &spec).expect("composes");
     let layouts = [&bindings, &scene_layout(gpu, &spec)];
     let pipeline = shader
@@ -20,7 +20,7 @@ fn evaluate(gpu: &Gpu, module: &Module, scene: &Scene, inputs: &[Vec4]) -> Vec<V
     let none = wgpu::BufferUsages::empty();
     let inputs = gpu.upload("inputs", inputs, none).expect("small");
     let outputs = gpu.storage("outputs", inputs.size(), none).expect("small");
-    let values = group(gpu, "values", &bindings, &[(0, &inputs), (1, &outputs)]);
+    let values = bind_group(gpu, "values", &bindings, &[(0, &inputs), (1, &outputs)]);
     gpu.checked(|| {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());

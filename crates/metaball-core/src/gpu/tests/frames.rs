@@ -1,4 +1,4 @@
-//! Frames, their reports, and what goes wrong with them.
+//! Frames, their reports and their errors.
 
 use std::time::Duration;
 
@@ -77,12 +77,12 @@ fn pixels_that_nobody_writes_are_undecided() {
 }
 
 #[test]
-fn too_little_room_is_grown_and_the_frame_redone() {
+fn capacities_grow_until_the_frame_is_complete() {
     let Some(gpu) = Gpu::for_test() else { return };
     let enough = hits(&gpu, &mut Sphere::new(), &scene(), &view());
-    let mut small = Sphere { room: 3, ..Sphere::new() };
+    let mut small = Sphere { capacity: 3, ..Sphere::new() };
     let grown = hits(&gpu, &mut small, &scene(), &view());
-    assert_eq!(small.room, HEIGHT);
+    assert_eq!(small.capacity, HEIGHT);
     assert_eq!(grown, enough);
 }
 
@@ -90,7 +90,7 @@ fn too_little_room_is_grown_and_the_frame_redone() {
 fn an_incomplete_frame_is_an_error() {
     let Some(gpu) = Gpu::for_test() else { return };
     let targets = targets(&gpu, &scene(), false);
-    let mut stuck = Sphere { room: HEIGHT - 1, can_grow: false, ..Sphere::new() };
+    let mut stuck = Sphere { capacity: HEIGHT - 1, can_grow: false, ..Sphere::new() };
     stuck.build(&gpu, &scene()).expect("builds");
     let error = render(&gpu, &mut stuck, &targets, &view()).expect_err("one row is missing");
     let RenderError::Incomplete { method: "sphere", status } = error else { panic!("{error}") };
@@ -142,7 +142,7 @@ fn passes_beyond_the_query_set_are_counted() {
 }
 
 #[test]
-fn colours_and_work_exist_when_asked_for() {
+fn colours_and_work_exist_when_requested() {
     let Some(gpu) = Gpu::for_test() else { return };
     let view = view();
     let mut renderer = Sphere { counting: true, ..Sphere::new() };
@@ -153,8 +153,8 @@ fn colours_and_work_exist_when_asked_for() {
         render(&gpu, &mut renderer, &targets, &view).expect("renders");
     }
     let hits = targets.read_hits(&gpu).expect("reads");
-    let colors = targets.read_colors(&gpu).expect("reads").expect("asked for");
-    let work = targets.read_work(&gpu).expect("reads").expect("asked for");
+    let colors = targets.read_colors(&gpu).expect("reads").expect("requested");
+    let work = targets.read_work(&gpu).expect("reads").expect("requested");
     for ((hit, color), work) in hits.iter().zip(&colors).zip(&work) {
         assert_eq!(work.balls, 1);
         assert_eq!(work.evaluations, u32::from(hit.is_hit()));

@@ -1,4 +1,4 @@
-//! The shared part on a real device, with a renderer that needs no structure: one sphere.
+//! The shared part on an adapter, with a renderer that needs no structure: one sphere.
 
 mod evaluate;
 mod frames;

@@ -55,7 +55,7 @@ fn normals_face_the_eye() {
     let Some(gpu) = Gpu::for_test() else { return };
     let image = draw(&gpu, Sphere::new(), &scene(), &view(), Picture::Normal).image;
     let [red, green, blue] = pixel(&image, MIDDLE);
-    // Half a pixel beside the middle of the sphere: cosines below 0.1.
+    // Half a pixel off the middle of the sphere: cosines below 0.1.
     assert!(red.abs_diff(128) < 14 && green.abs_diff(128) < 14 && blue > 250);
     let [red, ..] = pixel(&image, (MIDDLE.0 + 6, MIDDLE.1));
     let [_, green, _] = pixel(&image, (MIDDLE.0, MIDDLE.1 - 6));
@@ -132,7 +132,7 @@ fn spheres_near_the_eye_are_whole() {
             for column in 0..WIDTH {
                 // Half of Wyvill's kernel is at half the support radius. The greatest of R² − d²
                 // over the balls ahead says whether the ray meets one; within 1e-4 of a rim f32 may
-                // tell otherwise.
+                // differ.
                 let eye = view.camera().eye().as_dvec3();
                 let direction = view.camera().exact_direction(column, row, WIDTH, HEIGHT);
                 let margin = scene

@@ -44,7 +44,7 @@ fn directions_are_those_of_the_exact_camera() {
 }
 
 #[test]
-fn the_solid_scene_ends_rays() {
+fn the_opaque_scene_ends_rays() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut distances = vec![f32::INFINITY; view().pixels()];
     distances[3] = 0.0;
@@ -56,7 +56,7 @@ fn the_solid_scene_ends_rays() {
 }
 
 #[test]
-fn the_solid_scene_hides_the_surface() {
+fn the_opaque_scene_hides_the_surface() {
     let Some(gpu) = Gpu::for_test() else { return };
     // A wall at 4.5, where the unit sphere seen from 5 begins at 4: its middle shows, its rim not.
     let wall = Arc::from(vec![4.5; view().pixels()]);

@@ -1,4 +1,4 @@
-//! A scene takes on the device what it needs, and no more.
+//! The device memory that a scene takes: what it needs, and no more.
 
 use glam::Vec3;
 
@@ -15,7 +15,7 @@ fn equal_balls() -> Scene {
     scene(|index| Metaball::new(Vec3::X * index as f32, 1.0))
 }
 
-/// Bytes beside the header.
+/// Bytes without the header.
 fn bytes(gpu: &Gpu, scene: &Scene) -> usize {
     let all = SceneBuffers::new(gpu, scene).expect("small").bytes();
     all as usize - size_of::<SceneHeader>()

@@ -12,10 +12,10 @@ use crate::{Camera, Color, Hit, Kernel, Metaball, Scene, View};
 const MODULE: Module =
     Module { name: "sphere", source: include_str!("sphere.wgsl"), is_entry: true };
 
-/// Draws ball 0. Has room for so many rows of the picture, and may be able to make more.
+/// Draws ball 0, as many rows of the picture as its capacity allows, which may grow.
 pub(super) struct Sphere {
     pub(super) counting: bool,
-    pub(super) room: u32,
+    pub(super) capacity: u32,
     pub(super) can_grow: bool,
     /// −1 turns all normals over.
     pub(super) outward: f64,
@@ -30,7 +30,7 @@ pub(super) struct Built {
 
 impl Sphere {
     pub(super) fn new() -> Self {
-        Self { counting: false, room: u32::MAX, can_grow: true, outward: 1.0, built: None }
+        Self { counting: false, capacity: u32::MAX, can_grow: true, outward: 1.0, built: None }
     }
 }
 
@@ -48,7 +48,7 @@ impl IsoRenderer for Sphere {
         };
         let constants = [
             ("16", core_radius.unwrap_or(0.0)),
-            ("17", f64::from(self.room)),
+            ("17", f64::from(self.capacity)),
             ("18", self.outward),
         ];
         let shader = Shader::of_module(gpu, &MODULE, &spec)?;
@@ -75,7 +75,7 @@ impl IsoRenderer for Sphere {
         if !self.can_grow {
             return Ok(false);
         }
-        self.room = status.needed[1];
+        self.capacity = status.needed[1];
         let scene = self.built.as_ref().expect("a frame was drawn").scene.clone();
         self.build(gpu, &scene)?;
         Ok(true)

@@ -10,8 +10,8 @@
 #import metaball::work::{count_balls, count_evaluations, write_work}
 
 @id(16) override core_radius: f32;
-// Rows that this method has room for.
-@id(17) override room: u32;
+// Rows of the picture that are drawn.
+@id(17) override capacity: u32;
 // Factor of the normal: a canary turns it over.
 @id(18) override outward: f32 = 1.0;
 
@@ -21,7 +21,7 @@ fn trace(@builtin(global_invocation_id) invocation: vec3<u32>) {
         return;
     }
     let pixel = pixel_at(invocation.xy);
-    if invocation.y >= room {
+    if invocation.y >= capacity {
         report_unfinished();
         report_needed(1u, invocation.y + 1u);
         return;
