@@ -158,13 +158,13 @@ fn assumption_holds(scene: &Scene, ray: &Ray, truth: &Truth, kind: Kind) -> bool
         let center = ball.center.as_dvec3();
         // At the end of the ray, if the projection is beyond.
         let t = ((center - origin).dot(direction)).min(f64::from(ray.t_max));
-        let slack = 1e-3 * (truth.leaves - truth.t);
+        let slack = 1e-3 * (truth.exit - truth.t);
         let holds = |t: f64| {
             let radius = f64::from(ball.radius) * (1.0 - 1e-3);
             (origin + t * direction).distance_squared(center) < radius * radius
         };
         t > truth.t + slack
-            && t < truth.leaves - slack
+            && t < truth.exit - slack
             && holds(t)
             && (kind == Kind::Fitted || holds(truth.t))
     })
@@ -225,7 +225,7 @@ fn complaint(
     if kind == Kind::Fitted && reading == Reading::Literal {
         return None;
     }
-    let behind = f64::from(hit.t) > truth.leaves;
+    let behind = f64::from(hit.t) > truth.exit;
     (behind || field > threshold * (1.0 + share) && hit.verdict == Verdict::Hit)
         .then(|| format!("wrong front: field {field} at {}, {truth:?}", hit.t))
 }
@@ -319,14 +319,14 @@ fn false_answer(
     if hit.is_hit() && !near(f64::from(hit.t), truth.t) {
         return Some(format!("{hit:?}: {truth:?}"));
     }
-    if truth.verdict != Verdict::Inside || truth.leaves >= f64::from(ray.t_max) {
+    if truth.verdict != Verdict::Inside || truth.exit >= f64::from(ray.t_max) {
         return (exit != Hit::MISS).then(|| format!("{exit:?}: {truth:?}"));
     }
     // The margin says nothing of a field that comes down to T on the way, and goes up again.
     let field_at = |t: f64| oracle.field(ray.origin.as_dvec3() + t * ray.direction.as_dvec3());
-    let first = f64::from(exit.t).min(truth.leaves);
+    let first = f64::from(exit.t).min(truth.exit);
     let share = (field_at(first) / f64::from(scene.threshold()) - 1.0).abs();
-    let right = near(f64::from(exit.t), truth.leaves) || share <= Truth::AMBIGUOUS;
+    let right = near(f64::from(exit.t), truth.exit) || share <= Truth::AMBIGUOUS;
     (exit.verdict != Verdict::Hit || !right).then(|| format!("{exit:?}: {truth:?}"))
 }
 

@@ -98,7 +98,7 @@ mod tests {
         let miss = Truth {
             verdict: Verdict::Miss,
             t: f64::INFINITY,
-            leaves: f64::INFINITY,
+            exit: f64::INFINITY,
             normal: DVec3::ZERO,
             margin: 1.0,
             smallest_radius: 0.0,

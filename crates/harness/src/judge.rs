@@ -251,7 +251,7 @@ impl<'a> Exam<'a> {
         let t = f64::from(hit.t);
         if stand_in.keeps(truth, self.scene.threshold()) {
             // Two roundings of t, and one of the point where the truth leaves the solid.
-            let is_later = hit.is_hit() && t > truth.leaves * (1.0 + 4.0 * f64::from(f32::EPSILON));
+            let is_later = hit.is_hit() && t > truth.exit * (1.0 + 4.0 * f64::from(f32::EPSILON));
             if hit.is_hit() != is_there || is_later {
                 return Err(format!("needed {truth:?}, found {hit:?}"));
             }

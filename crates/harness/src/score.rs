@@ -236,7 +236,7 @@ mod tests {
             return Truth {
                 verdict: Verdict::Miss,
                 t: f64::INFINITY,
-                leaves: f64::INFINITY,
+                exit: f64::INFINITY,
                 normal: DVec3::ZERO,
                 margin: 1.0,
                 smallest_radius: 0.0,
@@ -245,7 +245,7 @@ mod tests {
         Truth {
             verdict: Verdict::Hit,
             t,
-            leaves: t + 0.1,
+            exit: t + 0.1,
             normal: (origin + t * direction - center).normalize(),
             margin: 1.0,
             smallest_radius: 2.0,

@@ -194,9 +194,9 @@ fn exit_is_wrong(oracle: &Oracle<'_>, scene: &Scene, ray: &Ray, hit: &Hit) -> Op
     let is_wrong = match truth.verdict {
         // Started outside: the space that is sought is there.
         Verdict::Miss | Verdict::Hit => hit.t != 0.0,
-        _ => !hit.is_hit() || (f64::from(hit.t) - truth.leaves).abs() > 0.05 * f64::from(radius),
+        _ => !hit.is_hit() || (f64::from(hit.t) - truth.exit).abs() > 0.05 * f64::from(radius),
     };
-    is_wrong.then(|| format!("needed an exit at {} of {truth:?}", truth.leaves))
+    is_wrong.then(|| format!("needed an exit at {} of {truth:?}", truth.exit))
 }
 
 fn pass(findings: &Findings) -> Result<(), Failed> {

@@ -262,9 +262,9 @@ fn in_terms_of_first_hits(
         Question::FirstHit => (*truth, *found),
         Question::AnyHit => (*truth, Hit { t: truth.t as f32, ..*found }),
         Question::Exit => {
-            let comes_out = truth.verdict == Verdict::Inside && truth.leaves < f64::from(ray.t_max);
+            let comes_out = truth.verdict == Verdict::Inside && truth.exit < f64::from(ray.t_max);
             let truth = if comes_out {
-                Truth { verdict: Verdict::Hit, t: truth.leaves, ..*truth }
+                Truth { verdict: Verdict::Hit, t: truth.exit, ..*truth }
             } else {
                 Truth { verdict: Verdict::Miss, t: f64::INFINITY, ..*truth }
             };
@@ -292,7 +292,7 @@ fn exit_is_ambiguous(exam: &Exam<'_>, ray: &Ray, leaves: f64) -> bool {
             let truth = Oracle::new(&scene).first_hit(ray);
             let reach = WRONG_FRONT * f64::from(truth.smallest_radius);
             let end = f64::from(ray.t_max);
-            let (one, other) = (truth.leaves.min(end), leaves.min(end));
+            let (one, other) = (truth.exit.min(end), leaves.min(end));
             // Both at the end of an endless ray are one.
             one != other && (one - other).abs() > reach.min(f64::from(NO_LIMIT))
         })

@@ -82,7 +82,7 @@ impl Promise {
             along.half_chord_squared > 0.0
                 && covers_hit
                 && along.projection - along.rounding > truth.t
-                && along.projection + along.rounding < truth.leaves
+                && along.projection + along.rounding < truth.exit
         })
     }
 

@@ -51,7 +51,7 @@ impl StandIn {
     pub fn keeps(&self, truth: &Truth, threshold: f32) -> bool {
         // Both bounds only grow where a chord begins.
         let starts = self.chords.iter().map(|chord| (chord.middle - chord.half).max(0.0));
-        let before = starts.filter(|&start| start <= truth.leaves);
+        let before = starts.filter(|&start| start <= truth.exit);
         let greatest = before.map(|start| {
             let (least, greatest) = self.at(start);
             greatest.max(-least)

@@ -36,8 +36,8 @@
 //! let balls = [Metaball::new(Vec3::ZERO, 1.0), Metaball::new(Vec3::X, 1.0)];
 //! let scene = Scene::new(balls, Kernel::QUARTIC, 0.25)?;
 //! let truth = Oracle::new(&scene).first_hit(&Ray::new(Vec3::X * 5.0, Vec3::NEG_X));
-//! println!("{:?} at t = {:.3}, out at {:.3}", truth.verdict, truth.t, truth.leaves);
-//! # assert_eq!(format!("{:.3} {:.3}", truth.t, truth.leaves), "3.293 5.707");
+//! println!("{:?} at t = {:.3}, out at {:.3}", truth.verdict, truth.t, truth.exit);
+//! # assert_eq!(format!("{:.3} {:.3}", truth.t, truth.exit), "3.293 5.707");
 //! # Ok::<(), metaball_core::SceneError>(())
 //! ```
 
@@ -78,11 +78,11 @@ pub struct Oracle<'a> {
 pub struct Truth {
     /// `Miss`, `Hit` or `Inside`; never `Undecided`.
     pub verdict: Verdict,
-    /// Distance of the first hit, along the ray's direction as stored; 0 inside, +∞ for a miss.
+    /// The t of the first hit, in scene units; 0 inside, +∞ for a miss.
     pub t: f64,
-    /// Where the field falls below T again after that; `t_max` where the ray ends first, +∞ for a
-    /// miss.
-    pub leaves: f64,
+    /// The t after that at which the field falls below T again; `t_max` where the ray ends first, +∞ for
+    /// a miss.
+    pub exit: f64,
     /// Unit vector out of the solid, against the gradient; zero for a miss, and where the gradient
     /// vanishes (as in the middle of a lone ball).
     pub normal: DVec3,
@@ -132,7 +132,7 @@ impl<'a> Oracle<'a> {
         } else {
             (self.normal(line.at(t)), self.smallest_radius(line.at(t)))
         };
-        Truth { verdict, t, leaves: walk.leaves(), normal, margin: walk.margin(), smallest_radius }
+        Truth { verdict, t, exit: walk.exit(), normal, margin: walk.margin(), smallest_radius }
     }
 
     /// The first hit of each ray, in the order of the rays, on all cores.

@@ -102,7 +102,7 @@ mod closed_forms {
                         / ray.direction.as_dvec3().length();
                     assert_eq!(truth.verdict, Verdict::Hit, "{kernel}: {truth:?}");
                     assert!((truth.t / (middle - half) - 1.0).abs() < 1e-12, "{kernel}: {truth:?}");
-                    assert!((truth.leaves / (middle + half) - 1.0).abs() < 1e-12);
+                    assert!((truth.exit / (middle + half) - 1.0).abs() < 1e-12);
                     let outward = ray.origin.as_dvec3() + truth.t * ray.direction.as_dvec3()
                         - ball.center.as_dvec3();
                     assert!((outward.normalize() - truth.normal).length() < 1e-9);
@@ -153,7 +153,7 @@ mod closed_forms {
             let truth = Oracle::new(&scene).first_hit(&Ray::new(Vec3::Z * 3.0, Vec3::NEG_Z));
             let radius = kernel.ratio_at(0.5).expect("reached");
             approx::assert_abs_diff_eq!(truth.t, 3.0 - radius, epsilon = 0.9e-3);
-            approx::assert_abs_diff_eq!(truth.leaves, 3.0 + radius, epsilon = 0.9e-3);
+            approx::assert_abs_diff_eq!(truth.exit, 3.0 + radius, epsilon = 0.9e-3);
         }
     }
 
@@ -166,7 +166,7 @@ mod closed_forms {
         let scene = scene([ball(-0.5), ball(0.5)], kernel, 1.5);
         let truth = Oracle::new(&scene).first_hit(&Ray::new(Vec3::X * 5.0, Vec3::NEG_X));
         approx::assert_abs_diff_eq!(truth.t, 5.0 - 0.75f64.sqrt(), epsilon = 1e-14);
-        approx::assert_abs_diff_eq!(truth.leaves, 5.0 + 0.75f64.sqrt(), epsilon = 1e-14);
+        approx::assert_abs_diff_eq!(truth.exit, 5.0 + 0.75f64.sqrt(), epsilon = 1e-14);
         // In the middle the field is 2(1 − 1/16).
         approx::assert_abs_diff_eq!(truth.margin, 1.875 / 1.5 - 1.0, epsilon = 1e-9);
     }
@@ -180,7 +180,7 @@ mod closed_forms {
             let truth = Oracle::new(&scene).first_hit(&Ray::new(Vec3::X * -5.0, Vec3::X));
             let radius = kernel.ratio_at(0.5).expect("reached");
             approx::assert_abs_diff_eq!(truth.t, 4.0 - radius, epsilon = 1e-12);
-            approx::assert_abs_diff_eq!(truth.leaves, 4.0 + radius, epsilon = 1e-12);
+            approx::assert_abs_diff_eq!(truth.exit, 4.0 + radius, epsilon = 1e-12);
         }
     }
 }
@@ -197,7 +197,7 @@ mod edges {
         let scene = scene([], Kernel::QUARTIC, 0.5);
         let truth = Oracle::new(&scene).first_hit(&Ray::new(Vec3::ZERO, Vec3::Z));
         assert_eq!(truth.verdict, Verdict::Miss);
-        assert!(truth.t.is_infinite() && truth.leaves.is_infinite());
+        assert!(truth.t.is_infinite() && truth.exit.is_infinite());
         assert_eq!((truth.normal, truth.margin, truth.smallest_radius), (DVec3::ZERO, 1.0, 0.0));
     }
 
@@ -213,7 +213,7 @@ mod edges {
         let scene = one_ball(0.5);
         let truth = Oracle::new(&scene).first_hit(&Ray::new(Vec3::X * 0.5, Vec3::X));
         assert_eq!((truth.verdict, truth.t, truth.normal), (Verdict::Inside, 0.0, DVec3::X));
-        approx::assert_abs_diff_eq!(truth.leaves, 0.5f64.sqrt() - 0.5, epsilon = 1e-14);
+        approx::assert_abs_diff_eq!(truth.exit, 0.5f64.sqrt() - 0.5, epsilon = 1e-14);
         approx::assert_abs_diff_eq!(truth.margin, 0.5, epsilon = 1e-14);
         let middle = Oracle::new(&scene).first_hit(&Ray::new(Vec3::ZERO, Vec3::X));
         assert_eq!((middle.verdict, middle.normal), (Verdict::Inside, DVec3::ZERO));
@@ -254,8 +254,8 @@ mod edges {
         // The ball spans t from 2.5 to 3.5.
         assert_eq!(trace(2.25).verdict, Verdict::Miss);
         assert_eq!(trace(2.75).verdict, Verdict::Hit);
-        assert_eq!(trace(2.75).leaves, 2.75);
-        assert_eq!(trace(4.0).leaves, 3.5);
+        assert_eq!(trace(2.75).exit, 2.75);
+        assert_eq!(trace(4.0).exit, 3.5);
         // At the end the field is 1 − 0.75² and 1 − 0.25², to the rounding of the ray.
         approx::assert_abs_diff_eq!(trace(2.25).margin, 1.0 - 0.4375 / 0.75, epsilon = 1e-9);
         approx::assert_abs_diff_eq!(trace(2.75).margin, 0.9375 / 0.75 - 1.0, epsilon = 1e-9);
@@ -405,7 +405,7 @@ mod against_sampling {
     /// The margin by its definition, from evenly spaced samples of the field.
     fn sampled_margin(samples: &[f64], truth: &Truth, step: f64, threshold: f64) -> f64 {
         let hit = ((truth.t / step).ceil() as usize).min(samples.len() - 1);
-        let leaves = ((truth.leaves / step).floor() as usize).min(samples.len() - 1);
+        let exit = ((truth.exit / step).floor() as usize).min(samples.len() - 1);
         let distance = |value: f64| (value - threshold).abs() / threshold;
         let mut margin = distance(samples[0]);
         for triple in samples[..=hit].windows(3) {
@@ -413,8 +413,8 @@ mod against_sampling {
                 margin = margin.min(distance(triple[1]));
             }
         }
-        if truth.verdict == Verdict::Hit && hit <= leaves {
-            let highest = samples[hit..=leaves].iter().copied().fold(threshold, f64::max);
+        if truth.verdict == Verdict::Hit && hit <= exit {
+            let highest = samples[hit..=exit].iter().copied().fold(threshold, f64::max);
             margin = margin.min(distance(highest));
         }
         margin
@@ -447,7 +447,7 @@ mod against_sampling {
                 for (index, &sample) in samples.iter().enumerate() {
                     if at(index) < truth.t - 1e-9 {
                         assert!(sample < threshold, "{kernel}: {truth:?}");
-                    } else if at(index) > truth.t + 1e-9 && at(index) < truth.leaves - 1e-9 {
+                    } else if at(index) > truth.t + 1e-9 && at(index) < truth.exit - 1e-9 {
                         assert!(sample >= threshold, "{kernel}: {truth:?}");
                     }
                 }
@@ -571,14 +571,14 @@ mod invariance {
             };
             let truth = Oracle::new(&scene).first_hit(&ray);
             prop_assert!(truth.margin >= 0.0 && truth.margin.is_finite());
-            prop_assert!(truth.leaves >= truth.t);
+            prop_assert!(truth.exit >= truth.t);
             match truth.verdict {
                 Verdict::Miss => {
                     prop_assert!(truth.t.is_infinite());
                     prop_assert!(truth.margin <= 1.0);
                 }
                 Verdict::Hit => {
-                    prop_assert!(truth.t >= 0.0 && truth.leaves.is_finite());
+                    prop_assert!(truth.t >= 0.0 && truth.exit.is_finite());
                     prop_assert!(truth.smallest_radius > 0.0 && truth.margin <= 1.0);
                 }
                 Verdict::Inside => prop_assert_eq!(truth.t, 0.0),

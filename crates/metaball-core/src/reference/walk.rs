@@ -1,4 +1,4 @@
-//! The walk along a ray: where it first meets the solid, leaves it, and how clearly.
+//! The walk along a ray: where it enters and exits the first sheet of the solid, and how clearly.
 
 use std::ops::ControlFlow;
 
@@ -22,8 +22,8 @@ pub(super) struct Walk {
     threshold: f64,
     state: State,
     /// Where the solid begins and ends, in t.
-    enters: f64,
-    leaves: f64,
+    entry: f64,
+    exit: f64,
     /// The field at the start, or the greatest local maximum before the solid if that is higher.
     /// Below T unless the start is inside.
     highest_before: f64,
@@ -44,8 +44,8 @@ impl Walk {
         Self {
             threshold,
             state: if is_inside { State::Inside } else { State::Before },
-            enters: if is_inside { 0.0 } else { f64::INFINITY },
-            leaves: f64::INFINITY,
+            entry: if is_inside { 0.0 } else { f64::INFINITY },
+            exit: f64::INFINITY,
             highest_before: at_start,
             highest_inside: at_start,
         }
@@ -93,7 +93,7 @@ impl Walk {
     pub(super) fn end(&mut self, t: f64, field: f64) {
         match self.state {
             State::Before => self.highest_before = self.highest_before.max(field),
-            State::Inside => self.leaves = t,
+            State::Inside => self.exit = t,
             State::After => {}
         }
     }
@@ -105,12 +105,12 @@ impl Walk {
             _ if self.highest_before >= self.threshold => Verdict::Inside,
             _ => Verdict::Hit,
         };
-        (verdict, self.enters)
+        (verdict, self.entry)
     }
 
     /// Where the first sheet ends, in t.
-    pub(super) fn leaves(&self) -> f64 {
-        self.leaves
+    pub(super) fn exit(&self) -> f64 {
+        self.exit
     }
 
     /// The least distance of the field from T, in shares of T, over the points that decide.
@@ -195,13 +195,13 @@ impl Walk {
 
     fn enter(&mut self, t: f64) {
         self.state = State::Inside;
-        self.enters = t;
+        self.entry = t;
         self.highest_inside = self.threshold;
     }
 
     fn leave(&mut self, t: f64) -> ControlFlow<()> {
         self.state = State::After;
-        self.leaves = t;
+        self.exit = t;
         ControlFlow::Break(())
     }
 }
