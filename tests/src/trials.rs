@@ -15,6 +15,7 @@ mod stability;
 mod twins;
 
 use bench_scenes::{BenchScene, Overrides};
+use harness::judge::Terms;
 use harness::settings::Setting;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
@@ -59,6 +60,16 @@ fn on_gpu(
 fn preset(method: &str) -> Result<Setting, Failed> {
     let found = harness::methods::find(method);
     Ok(found.ok_or_else(|| format!("no method is called {method}"))?.into())
+}
+
+/// What a method as it is listed is held to.
+fn terms_of(method: &str) -> Result<Terms, Failed> {
+    Ok(Terms::of(&preset(method)?.technique))
+}
+
+/// The tree that a method as it is listed traces.
+fn tree_options(method: &str) -> Result<fbvh::Options, Failed> {
+    Ok(preset(method)?.technique.tree().ok_or("the method has no tree")?)
 }
 
 /// A renderer of a method that does not count its work.

@@ -22,7 +22,7 @@ pub(crate) fn cargo() -> Command {
 pub(crate) fn metaball(arguments: &[String]) -> Result<(), String> {
     let mut command = cargo();
     quieten(&mut command);
-    command.args(["run", "--release", "--package", "harness", "--bin", "metaball", "--"]);
+    command.args(["run", "--release", "--package", "metaball-cli", "--bin", "metaball", "--"]);
     let status = command.args(arguments).status();
     match status.map_err(|error| format!("cargo could not be started: {error}"))?.code() {
         Some(0) => Ok(()),

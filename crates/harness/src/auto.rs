@@ -146,7 +146,6 @@ mod tests {
 
     use super::*;
     use crate::auto::choice::Errors;
-    use crate::output::tests::scratch;
     use crate::settings::sweeps::candidates;
 
     fn few() -> Vec<Setting> {
@@ -163,8 +162,8 @@ mod tests {
     fn the_picture_keeps_the_error_and_the_choice_is_kept() {
         let Some(gpu) = Gpu::for_test() else { return };
         let bench = load("random-200", &Overrides::default()).expect("known");
-        let folder = scratch("auto");
-        let cache = Cache::at(folder.clone());
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::at(folder.path().to_owned());
         let mut first = auto(&bench, MAX_ERROR, &cache);
         first.build(&gpu, &bench.scene).expect("chosen");
 
@@ -185,12 +184,11 @@ mod tests {
         second.build(&gpu, &bench.scene).expect("chosen");
         assert_eq!(second.choice().expect("chosen").setting, choice.setting);
         assert!(second.account().iter().any(|(_, text)| text.starts_with("made earlier")));
-        for file in std::fs::read_dir(&folder).expect("made") {
+        for file in std::fs::read_dir(folder.path()).expect("made") {
             std::fs::write(file.expect("there").path(), "{ half a fi").expect("written");
         }
         second.build(&gpu, &bench.scene).expect("chosen anew");
         assert!(second.account().iter().any(|(_, text)| text == "made now"));
-        std::fs::remove_dir_all(folder).expect("removable");
     }
 
     #[test]

@@ -7,14 +7,14 @@ use metaball_core::gpu::{Gpu, Picture, RenderError, Shading, Targets};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Verdict, View};
 
-use crate::console::Progress;
 use crate::heat::heat_map;
 use crate::measure::{Contender, Sampling, Timing, count_work, milliseconds, time_all, views};
-use crate::picture::encode_png;
+use crate::progress::Progress;
 use crate::record::{Adapter, Measured, Record, Status, WorkPerRay};
 use crate::reference::Reference;
 use crate::score::{Accuracy, is_murky, score};
 use crate::settings::Setting;
+use picture_files::encode_png;
 
 /// How to hold a contest.
 #[derive(Debug, Clone)]
@@ -87,7 +87,7 @@ pub fn hold(
     gpu: &Gpu,
     bench: &BenchScene,
     rules: &Rules,
-    progress: &Progress,
+    progress: &dyn Progress,
 ) -> anyhow::Result<Contest> {
     let arena = Arena::new(gpu, bench, rules, progress)?;
     let mut outcomes = Outcomes::new();
@@ -123,7 +123,7 @@ struct Arena<'a> {
     gpu: &'a Gpu,
     bench: &'a BenchScene,
     rules: &'a Rules,
-    progress: &'a Progress,
+    progress: &'a dyn Progress,
     view: View,
     targets: Targets,
 }
@@ -133,7 +133,7 @@ impl<'a> Arena<'a> {
         gpu: &'a Gpu,
         bench: &'a BenchScene,
         rules: &'a Rules,
-        progress: &'a Progress,
+        progress: &'a dyn Progress,
     ) -> anyhow::Result<Self> {
         let (width, height) = rules.size;
         let view = View::new(bench.camera, width, height)?;
@@ -242,7 +242,7 @@ impl<'a> Arena<'a> {
         let shading = Shading::new(self.gpu);
         let scene = &self.bench.scene;
         let shaded = shading.draw(&self.targets, &self.view, scene, Picture::Phong)?;
-        encode_png(&shaded.image)
+        Ok(encode_png(&shaded.image)?)
     }
 
     fn record(&self, place: usize, outcome: Result<Measured, RenderError>) -> Record {
@@ -332,7 +332,10 @@ mod tests {
     use metaball_core::gpu::{BuildReport, Frame, IsoRenderer};
 
     use super::*;
-    use crate::methods::{METHODS, Method};
+    use crate::judge::Stop;
+    use crate::judge::promise::Promise;
+    use crate::methods::{Method, methods};
+    use crate::technique::{Own, Technique};
 
     /// A method that can do nothing.
     struct Unable;
@@ -356,7 +359,12 @@ mod tests {
         title: "Unable",
         paper: "none",
         about: "Fails.",
-        make: |_| Box::new(Unable),
+        technique: Technique::Own(Own {
+            make: |_| Box::new(Unable),
+            promise: Promise::Always,
+            stop: Stop::ROUNDING,
+            refuses: |_| None,
+        }),
     };
 
     #[test]
@@ -364,18 +372,18 @@ mod tests {
         let Some(gpu) = Gpu::for_test() else { return };
         let bench = load("colors-100", &Overrides::default()).expect("known");
         let rules = Rules {
-            settings: vec![(&UNABLE).into(), (&METHODS[0]).into()],
+            settings: vec![(&UNABLE).into(), (&methods()[0]).into()],
             size: (48, 36),
             sampling: Sampling::exactly(2),
             along_path: true,
             every_pixel: false,
             counts_work: true,
         };
-        let contest = hold(&gpu, &bench, &rules, &Progress::new(steps(&rules))).expect("held");
+        let contest = hold(&gpu, &bench, &rules, &()).expect("held");
         let [unable, able] = &contest.records[..] else { panic!("two records") };
         assert_eq!((unable.method.as_str(), unable.status), ("unable", Status::Unsupported));
         assert_eq!(unable.reason.as_deref(), Some("method unable: needs more"));
-        assert_eq!((able.method.as_str(), able.status), (METHODS[0].name, Status::Ok));
+        assert_eq!((able.method.as_str(), able.status), (methods()[0].name, Status::Ok));
         let measured = able.measured.as_ref().expect("drawn");
         assert_eq!(measured.frame_ms.samples.len(), 2);
         assert_eq!(measured.accuracy.rays, 48 * 36);
@@ -396,7 +404,7 @@ mod tests {
             every_pixel: false,
             counts_work: true,
         };
-        let contest = hold(&gpu, &bench, &rules, &Progress::new(steps(&rules))).expect("held");
+        let contest = hold(&gpu, &bench, &rules, &()).expect("held");
         assert_eq!(contest.records.len(), 1);
         assert!(contest.reference.is_none() && contest.pictures.is_empty());
     }

@@ -4,17 +4,16 @@
 
 pub mod points;
 pub mod promise;
-pub mod refusals;
 pub mod stand_in;
 
-use illes_fraglist::Piece;
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Hit, Ray, Scene, Verdict};
 
-use self::promise::{Promise, promise_of};
+use self::promise::Promise;
 use self::stand_in::StandIn;
-use crate::score::{Judgement, WRONG_FRONT};
-use crate::settings::{Knobs, Setting};
+use crate::fronts::WRONG_FRONT;
+use crate::score::Judgement;
+use crate::technique::Technique;
 
 /// What a method is held to.
 #[derive(Debug, Clone, Copy)]
@@ -34,50 +33,15 @@ pub enum Stop {
     Distance(f64),
 }
 
-/// What a method is held to, by name.
-///
-/// # Panics
-/// When nobody has written down what the method promises.
-pub fn terms_of(method: &str) -> Terms {
-    Terms::of(promise_of(method))
+impl Stop {
+    /// At a root to rounding.
+    pub const ROUNDING: Self = Self::Residual(0.0);
 }
 
 impl Terms {
-    /// A promise, with the stop of the root finders of its kind.
-    pub fn of(promise: Promise) -> Self {
-        let stop = match promise {
-            // Half the default clipping threshold of 1e-3, times an interval of at most two radii.
-            Promise::Peeling { .. } => Stop::Distance(1e-3),
-            // The default tolerance of the secant search.
-            _ => Stop::Residual(1e-4),
-        };
-        Self { promise, stop }
-    }
-
-    /// What a method with its options set is held to.
-    ///
-    /// # Panics
-    /// When nobody has written down what the method promises.
-    pub fn of_setting(setting: &Setting) -> Self {
-        let preset = promise_of(setting.method.name);
-        match setting.knobs {
-            Knobs::Preset => Self::of(preset),
-            Knobs::Tree(_, trace) => {
-                Self { promise: preset, stop: Stop::Residual(f64::from(trace.tolerance)) }
-            }
-            Knobs::Peeling(options) => Self {
-                promise: Promise::Peeling { list_capacity: options.list_capacity as usize },
-                // Half the threshold, times two radii, and ten roundings of a distance of a few
-                // radii.
-                stop: Stop::Distance(f64::from(options.threshold) + 9e-6),
-            },
-            Knobs::Fragments(illes_fraglist::Options { piece: Piece::Robust, .. }) => {
-                Self::of(preset)
-            }
-            Knobs::Fragments(illes_fraglist::Options { piece, array_capacity, .. }) => {
-                Self::of(Promise::Fragments { piece, array_capacity })
-            }
-        }
+    /// What a technique promises.
+    pub fn of(technique: &Technique) -> Self {
+        Self { promise: technique.promise(), stop: technique.stop() }
     }
 
     /// The |Δt|/R that 99 of 100 hits keep within: the reach of a default root finder, or where a

@@ -1,12 +1,16 @@
 //! The only list of methods.
 
-use fbvh::gpu::Renderer;
+use std::sync::OnceLock;
+
 use fbvh::{Options, TraceOptions};
 use illes_fraglist::{Gather, Piece};
 use metaball_core::gpu::IsoRenderer;
+use thiserror::Error;
+
+use crate::technique::Technique;
 
 /// A method that can be compared.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Method {
     /// Stable name on the command line, in records and in file names.
     pub name: &'static str,
@@ -16,23 +20,23 @@ pub struct Method {
     pub paper: &'static str,
     /// What it does, one sentence.
     pub about: &'static str,
-    /// Makes a renderer that counts its work or, as when timing, does not.
-    pub make: fn(counting: bool) -> Box<dyn IsoRenderer>,
+    /// What it does, from which all else that there is to know of it follows.
+    pub technique: Technique,
 }
 
 /// What is compared unless other methods are named: the published ones, and the one that is never
 /// wrong.
 pub const HEADLINERS: &[&str] = &["bvh", "fbvh", "fbvh-certified", "kanamori", "illes"];
 
-/// All methods, in the order of tables.
-pub const METHODS: &[Method] = &[
+/// The methods of this workspace, in the order of tables.
+const METHODS: &[Method] = &[
     Method {
         name: "bvh",
         title: "Modified BVH",
         paper: "Gourmel et al. 2010, section 4",
         about: "A hierarchy whose leaves own their balls and name all others that reach in; boxes \
                 overlap, and a ray goes on until no nearer leaf is left.",
-        make: |counting| bvh("bvh", Options::modified_bvh(), counting),
+        technique: Technique::Tree(Options::modified_bvh(), TraceOptions::DEFAULT),
     },
     Method {
         name: "fbvh",
@@ -40,7 +44,7 @@ pub const METHODS: &[Method] = &[
         paper: "Gourmel et al. 2010, section 5",
         about: "Balls are split among leaves whose fitted boxes do not overlap; the first hit ends \
                 the ray.",
-        make: |counting| bvh("fbvh", Options::fitted(), counting),
+        technique: Technique::Tree(Options::fitted(), TraceOptions::DEFAULT),
     },
     Method {
         name: "fbvh-certified",
@@ -48,7 +52,7 @@ pub const METHODS: &[Method] = &[
         paper: "not published: exact ranges in the place of the paper's assumption",
         about: "Boxes in which the field stays below or above the threshold are dropped or solid; \
                 the others are searched by exact bounds, so that no answer is wrong.",
-        make: |counting| bvh("fbvh-certified", Options::certified(), counting),
+        technique: Technique::Tree(Options::certified(), TraceOptions::DEFAULT),
     },
     Method {
         name: "kanamori",
@@ -56,10 +60,7 @@ pub const METHODS: &[Method] = &[
         paper: "Kanamori et al. 2008",
         about: "Supports are drawn as rectangles and peeled layer by layer; each ray keeps a list of \
                 the balls it is in and searches every interval by Bézier clipping.",
-        make: |counting| {
-            let options = kanamori_peel::Options::default();
-            Box::new(kanamori_peel::Renderer::new("kanamori", options, counting))
-        },
+        technique: Technique::Peeling(kanamori_peel::Options::PUBLISHED),
     },
     Method {
         name: "kanamori-robust",
@@ -67,9 +68,7 @@ pub const METHODS: &[Method] = &[
         paper: "not published: the peeling of Kanamori et al. 2008 replaced by a search",
         about: "Balls are registered with tiles of the picture; each ray searches its tile's list by \
                 intervals with exact bounds, so that neither coincident points nor crowds matter.",
-        make: |counting| {
-            Box::new(kanamori_peel::robust::Renderer::new("kanamori-robust", counting))
-        },
+        technique: Technique::TileSearch,
     },
     Method {
         name: "illes",
@@ -77,7 +76,7 @@ pub const METHODS: &[Method] = &[
         paper: "Illés and Szécsi, Efficient GPU Fluid Visualization",
         about: "Each pixel gathers a list of the balls along its ray; between the ends and midpoints \
                 of their chords the field is approximated by a cubic.",
-        make: |counting| fragment_lists("illes", Piece::Cubic, counting),
+        technique: fragment_lists(Piece::Cubic),
     },
     Method {
         name: "illes-absolute",
@@ -85,7 +84,7 @@ pub const METHODS: &[Method] = &[
         paper: "Illés and Szécsi, Efficient GPU Fluid Visualization, section 4",
         about: "The same with the cubic as printed, a running sum in powers of the distance, which \
                 loses its digits away from the eye.",
-        make: |counting| fragment_lists("illes-absolute", Piece::AbsoluteCubic, counting),
+        technique: fragment_lists(Piece::AbsoluteCubic),
     },
     Method {
         name: "illes-exact",
@@ -93,7 +92,7 @@ pub const METHODS: &[Method] = &[
         paper: "Illés and Szécsi, Efficient GPU Fluid Visualization, section 3",
         about: "The same with the field's own polynomial, of degree four or six, in place of the \
                 cubic.",
-        make: |counting| fragment_lists("illes-exact", Piece::Exact, counting),
+        technique: fragment_lists(Piece::Exact),
     },
     Method {
         name: "illes-robust",
@@ -101,7 +100,7 @@ pub const METHODS: &[Method] = &[
         paper: "not published: exact polynomials, and no ray that too many balls overlap on is wrong",
         about: "The same as with exact polynomials; a ray with more separators than its array holds \
                 is searched without it.",
-        make: |counting| fragment_lists("illes-robust", Piece::Robust, counting),
+        technique: fragment_lists(Piece::Robust),
     },
     Method {
         name: "illes-compute",
@@ -109,35 +108,67 @@ pub const METHODS: &[Method] = &[
         paper: "not published: the same cubics without a rasteriser",
         about: "Balls are sorted into tiles of the picture, and tiles into the lists of pixels, by \
                 compute passes; the same cast.",
-        make: |counting| {
-            let options = illes_fraglist::Options { gather: Gather::Tiles, ..Default::default() };
-            Box::new(illes_fraglist::Renderer::new("illes-compute", options, counting))
-        },
+        technique: Technique::Fragments(illes_fraglist::Options {
+            gather: Gather::Tiles,
+            ..illes_fraglist::Options::PUBLISHED
+        }),
     },
 ];
 
-fn fragment_lists(name: &'static str, piece: Piece, counting: bool) -> Box<dyn IsoRenderer> {
-    let options = illes_fraglist::Options { piece, ..illes_fraglist::Options::default() };
-    Box::new(illes_fraglist::Renderer::new(name, options, counting))
+const fn fragment_lists(piece: Piece) -> Technique {
+    let published = illes_fraglist::Options::PUBLISHED;
+    Technique::Fragments(illes_fraglist::Options { piece, ..published })
 }
 
-fn bvh(name: &'static str, options: Options, counting: bool) -> Box<dyn IsoRenderer> {
-    Box::new(Renderer::new(name, options, TraceOptions::default(), counting))
+/// All methods there are, once somebody has asked or added some of their own.
+static ALL: OnceLock<Vec<Method>> = OnceLock::new();
+
+/// All methods: those of this workspace, in the order of tables, then those that were
+/// [added](add_methods).
+pub fn methods() -> &'static [Method] {
+    ALL.get_or_init(|| METHODS.to_vec())
 }
 
-/// The tree that a method traces, for those that the CPU traces too.
-pub fn tree_options(method: &str) -> Option<Options> {
-    match method {
-        "bvh" => Some(Options::modified_bvh()),
-        "fbvh" => Some(Options::fitted()),
-        "fbvh-certified" => Some(Options::certified()),
-        _ => None,
+/// Why methods were not added.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum AddError {
+    /// Two methods have one name.
+    #[error("method {name}: needed a name of its own, found another method of that name")]
+    Name {
+        /// The name.
+        name: &'static str,
+    },
+    /// Somebody has the list already.
+    #[error("methods: needed to be added once, before the first use of the list")]
+    Late,
+}
+
+/// Adds methods of somebody else's to the list, before anybody has asked for it.
+///
+/// # Errors
+/// When a name is taken, or the list was asked for or added to before.
+pub fn add_methods(own: impl IntoIterator<Item = Method>) -> Result<(), AddError> {
+    let mut all = METHODS.to_vec();
+    for method in own {
+        if all.iter().any(|other| other.name == method.name) {
+            return Err(AddError::Name { name: method.name });
+        }
+        all.push(method);
     }
+    ALL.set(all).map_err(|_| AddError::Late)
 }
 
 /// The method of that name.
 pub fn find(name: &str) -> Option<&'static Method> {
-    METHODS.iter().find(|method| method.name == name)
+    methods().iter().find(|method| method.name == name)
+}
+
+impl Method {
+    /// A renderer without a scene. It counts its work or, as when timing, does not.
+    pub fn renderer(&self, counting: bool) -> Box<dyn IsoRenderer> {
+        self.technique.renderer(self.name, counting)
+    }
 }
 
 #[cfg(test)]
@@ -146,14 +177,22 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_renderers_know_theirs() {
-        for (index, method) in METHODS.iter().enumerate() {
-            assert!(METHODS[..index].iter().all(|other| other.name != method.name));
+        for (index, method) in methods().iter().enumerate() {
+            assert!(methods()[..index].iter().all(|other| other.name != method.name));
             for counting in [false, true] {
-                assert_eq!((method.make)(counting).name(), method.name);
+                assert_eq!(method.renderer(counting).name(), method.name);
             }
         }
-        let traced_on_cpu = METHODS.iter().filter(|method| tree_options(method.name).is_some());
+        let traced_on_cpu = methods().iter().filter(|method| method.technique.tree().is_some());
         assert_eq!(traced_on_cpu.count(), 3);
         assert!(find("fbvh").is_some() && find("no such method").is_none());
+    }
+
+    #[test]
+    fn a_name_is_taken_once_and_a_list_in_use_is_not_added_to() {
+        let fbvh = *find("fbvh").expect("listed");
+        assert_eq!(add_methods([fbvh]), Err(AddError::Name { name: "fbvh" }));
+        assert_eq!(add_methods([Method { name: "mine", ..fbvh }]), Err(AddError::Late));
+        assert!(find("mine").is_none());
     }
 }

@@ -194,7 +194,7 @@ impl WorkPerRay {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use serde_json::{Value, json};
 
     use super::*;
@@ -222,18 +222,6 @@ pub(crate) mod tests {
                 subset: "every pixel".to_owned(),
             },
             work: Some(WorkPerRay::mean(&[])),
-        }
-    }
-
-    /// A record of four rays with that frame time and so many of them wrong.
-    pub(crate) fn measured_as(scene: &str, method: &str, ms: f64, wrong: usize) -> Record {
-        let mut measured = measured();
-        measured.frame_ms = Samples::new(vec![0.99 * ms, ms, 1.01 * ms]);
-        measured.accuracy.wrong_front = wrong;
-        Record {
-            scene: scene.to_owned(),
-            method: method.to_owned(),
-            ..record(Status::Ok, None, Some(measured))
         }
     }
 
@@ -332,11 +320,10 @@ pub(crate) mod tests {
                 record(Status::Unsupported, Some("needs 2 bytes, the limit is 1"), None),
             ],
         };
-        let folder = crate::output::tests::scratch("records");
-        let path = folder.join("records.json");
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("records.json");
         records.write(&path).expect("written");
         let text = std::fs::read_to_string(&path).expect("readable");
-        std::fs::remove_dir_all(folder).expect("removable");
         let back: Records = serde_json::from_str(&text).expect("as written");
         assert_eq!(back, records);
 

@@ -4,12 +4,9 @@ use metaball_core::reference::Truth;
 use metaball_core::{Hit, Verdict};
 use serde::{Deserialize, Serialize};
 
+use crate::fronts::WRONG_FRONT;
 use crate::reference::Reference;
 use crate::stats::{quantile, sorted};
-
-/// A hit further than this from the true one, in smallest support radii there, lies on a wrong
-/// front.
-pub const WRONG_FRONT: f64 = 0.05;
 
 /// A normal's length may differ from 1 by this much, far above rounding and far below a wrong one.
 const UNIT_TOLERANCE: f64 = 1e-3;

@@ -7,10 +7,10 @@ pub mod variants;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use fbvh::TraceOptions;
 use metaball_core::gpu::IsoRenderer;
 
 use crate::methods::Method;
+use crate::technique::Technique;
 
 /// A method with its options set.
 #[derive(Debug, Clone)]
@@ -19,8 +19,8 @@ pub struct Setting {
     pub method: &'static Method,
     /// Names and values of the options that differ from the method's preset.
     pub options: BTreeMap<String, String>,
-    /// All its options.
-    pub knobs: Knobs,
+    /// What it does, with all its options.
+    pub technique: Technique,
     /// Name in tables and on the command line: `fbvh`, or `fbvh, tolerance 1e-3`, unless it has a
     /// [name of its own](Self::called).
     pub name: String,
@@ -28,31 +28,19 @@ pub struct Setting {
     pub title: String,
 }
 
-/// All options of a method.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Knobs {
-    /// As the method is listed.
-    Preset,
-    /// `bvh`, `fbvh`, `fbvh-certified`.
-    Tree(fbvh::Options, TraceOptions),
-    /// `kanamori`.
-    Peeling(kanamori_peel::Options),
-    /// `illes` and its variants.
-    Fragments(illes_fraglist::Options),
-}
-
 impl Setting {
     /// The method as it is listed.
     pub fn preset(method: &'static Method) -> Self {
         let (name, title) = (method.name.to_owned(), method.title.to_owned());
-        Self { method, options: BTreeMap::new(), knobs: Knobs::Preset, name, title }
+        let technique = method.technique;
+        Self { method, options: BTreeMap::new(), technique, name, title }
     }
 
     /// The method with one option set otherwise.
-    pub fn with(method: &'static Method, option: &str, value: &str, knobs: Knobs) -> Self {
+    pub fn with(method: &'static Method, option: &str, value: &str, technique: Technique) -> Self {
         let options = BTreeMap::from([(option.to_owned(), value.to_owned())]);
         let name = label(method.name, &options);
-        Self { method, options, knobs, name, title: format!("… {option} {value}") }
+        Self { method, options, technique, name, title: format!("… {option} {value}") }
     }
 
     /// The same under a name and a title of its own.
@@ -64,19 +52,7 @@ impl Setting {
     /// A renderer without a scene, under the method's name. It counts its work or, as when timing,
     /// does not.
     pub fn renderer(&self, counting: bool) -> Box<dyn IsoRenderer> {
-        let name = self.method.name;
-        match self.knobs {
-            Knobs::Preset => (self.method.make)(counting),
-            Knobs::Tree(options, trace) => {
-                Box::new(fbvh::gpu::Renderer::new(name, options, trace, counting))
-            }
-            Knobs::Peeling(options) => {
-                Box::new(kanamori_peel::Renderer::new(name, options, counting))
-            }
-            Knobs::Fragments(options) => {
-                Box::new(illes_fraglist::Renderer::new(name, options, counting))
-            }
-        }
+        self.technique.renderer(self.method.name, counting)
     }
 }
 
@@ -101,15 +77,17 @@ pub fn label(method: &str, options: &BTreeMap<String, String>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::METHODS;
+    use fbvh::TraceOptions;
+
+    use crate::methods::methods;
 
     #[test]
     fn settings_say_what_they_set() {
-        let method = &METHODS[1];
+        let method = &methods()[1];
         assert_eq!(Setting::preset(method).to_string(), "fbvh");
         let trace = TraceOptions { tolerance: 1e-3, ..TraceOptions::DEFAULT };
-        let knobs = Knobs::Tree(fbvh::Options::fitted(), trace);
-        let set = Setting::with(method, "tolerance", "1e-3", knobs);
+        let technique = Technique::Tree(fbvh::Options::fitted(), trace);
+        let set = Setting::with(method, "tolerance", "1e-3", technique);
         assert_eq!(set.to_string(), "fbvh, tolerance 1e-3");
         assert_eq!(set.renderer(false).name(), "fbvh");
         assert_eq!(set.called("fbvh+coarse", "… coarse").to_string(), "fbvh+coarse");

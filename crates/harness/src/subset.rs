@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use metaball_core::Hit;
 
-use crate::score::WRONG_FRONT;
+use crate::fronts::WRONG_FRONT;
 
 /// Around an edge, pixels up to this far away (in both directions) are looked at.
 const EDGE_MARGIN: usize = 2;

@@ -70,16 +70,21 @@ pub const TILE_CAPACITY: u32 = 120_000;
 /// `illes_fraglist/cubic.wgsl` and `bernstein.wgsl` end.
 pub const ROOT_TOLERANCE: f64 = 4e-7;
 
-impl Default for Options {
+impl Options {
     /// The published method; 8 MB of nodes.
+    pub const PUBLISHED: Self = Self {
+        piece: Piece::Cubic,
+        gather: Gather::Raster,
+        sort: Sort::Host,
+        array_capacity: ARRAY_CAPACITY,
+        first_nodes: 1 << 20,
+    };
+}
+
+impl Default for Options {
+    /// [`Options::PUBLISHED`].
     fn default() -> Self {
-        Self {
-            piece: Piece::Cubic,
-            gather: Gather::Raster,
-            sort: Sort::Host,
-            array_capacity: ARRAY_CAPACITY,
-            first_nodes: 1 << 20,
-        }
+        Self::PUBLISHED
     }
 }
 

@@ -77,18 +77,24 @@ pub struct Options {
     pub stack_size: u32,
 }
 
+impl Options {
+    /// The published method.
+    pub const PUBLISHED: Self = Self {
+        list_capacity: LIST_CAPACITY,
+        outline: Outline::Rectangle,
+        culling: true,
+        tiles: 8,
+        registration: Registration::Host,
+        clipping: Clipping::ShortStack,
+        threshold: CLIPPING_THRESHOLD,
+        stack_size: STACK_SIZE,
+    };
+}
+
 impl Default for Options {
+    /// [`Options::PUBLISHED`].
     fn default() -> Self {
-        Self {
-            list_capacity: LIST_CAPACITY,
-            outline: Outline::Rectangle,
-            culling: true,
-            tiles: 8,
-            registration: Registration::Host,
-            clipping: Clipping::ShortStack,
-            threshold: CLIPPING_THRESHOLD,
-            stack_size: STACK_SIZE,
-        }
+        Self::PUBLISHED
     }
 }
 

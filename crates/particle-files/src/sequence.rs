@@ -105,6 +105,11 @@ impl Sequence {
         &self.name
     }
 
+    /// What it was asked to change about every scene.
+    pub fn overrides(&self) -> &Overrides {
+        &self.overrides
+    }
+
     /// A camera for all frames.
     pub fn camera(&self) -> &Camera {
         &self.camera

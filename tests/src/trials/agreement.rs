@@ -1,7 +1,6 @@
 //! Every method, and every variant of one, against the oracle on every scene, and each against every
 //! other.
 
-use harness::judge::refusals::{Refusal, refusal_of};
 use harness::judge::{Findings, Terms};
 use harness::settings::Setting;
 use harness::settings::variants::entrants;
@@ -42,21 +41,21 @@ pub(super) fn pass(findings: &Findings) -> Result<(), Failed> {
 
 fn with_oracle(gpu: &Gpu, scene: &'static str, entrant: &Setting) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    if let Some(refusal) = refusal_of(entrant.method.name, &room.scene.scene) {
-        return refuses(gpu, entrant.renderer(false).as_mut(), &room.scene.scene, refusal);
+    if let Some(reason) = entrant.technique.refusal(&room.scene.scene) {
+        return refuses(gpu, entrant.renderer(false).as_mut(), &room.scene.scene, reason);
     }
-    pass(&room.exam.judge(&picture(gpu, scene, entrant)?, &Terms::of_setting(entrant)))
+    pass(&room.exam.judge(&picture(gpu, scene, entrant)?, &Terms::of(&entrant.technique)))
 }
 
 fn refuses(
     gpu: &Gpu,
     renderer: &mut dyn IsoRenderer,
     scene: &Scene,
-    refusal: &Refusal,
+    reason: &str,
 ) -> Result<(), Failed> {
     match renderer.build(gpu, scene) {
-        Err(RenderError::Unsupported { reason, .. }) if reason.contains(refusal.reason) => Ok(()),
-        outcome => Err(format!("needed {refusal:?}, found {outcome:?}").into()),
+        Err(RenderError::Unsupported { reason: found, .. }) if found.contains(reason) => Ok(()),
+        outcome => Err(format!("needed a refusal with {reason:?}, found {outcome:?}").into()),
     }
 }
 
@@ -67,13 +66,12 @@ fn with_each_other(
     theirs: &Setting,
 ) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    let is_refused =
-        |entrant: &Setting| refusal_of(entrant.method.name, &room.scene.scene).is_some();
+    let is_refused = |entrant: &Setting| entrant.technique.refusal(&room.scene.scene).is_some();
     if is_refused(ours) || is_refused(theirs) {
         // There is one picture at most; that the other is refused is tested with the oracle.
         return Ok(());
     }
     let (first, second) = (picture(gpu, scene, ours)?, picture(gpu, scene, theirs)?);
-    let promise = |entrant| Terms::of_setting(entrant).promise;
+    let promise = |entrant: &Setting| entrant.technique.promise();
     pass(&room.exam.compare((&first, promise(ours)), (&second, promise(theirs))))
 }

@@ -1,14 +1,12 @@
 //! Wrong pictures that the comparisons must reject: a comparison nobody has seen fail is no test.
 
-use harness::judge::promise::promise_of;
-use harness::judge::terms_of;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::{Hit, Scene};
 
 use super::agreement::pass;
 use super::gallery::{picture, room};
-use super::{SIZE, draw, on_gpu, preset, renderer};
+use super::{SIZE, draw, on_gpu, preset, renderer, terms_of};
 
 /// The method whose picture is spoilt, and a scene with enough in it to spoil.
 const METHOD: &str = "fbvh";
@@ -55,9 +53,9 @@ pub(super) fn rejects_spoilt(
 ) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
     let mut hits = picture(gpu, scene, &preset(method)?)?.to_vec();
-    pass(&room.exam.judge(&hits, &terms_of(method)))?;
+    pass(&room.exam.judge(&hits, &terms_of(method)?))?;
     spoil(&mut hits);
-    match pass(&room.exam.judge(&hits, &terms_of(method))) {
+    match pass(&room.exam.judge(&hits, &terms_of(method)?)) {
         Ok(()) => Err("the spoilt picture passed".into()),
         Err(_) => Ok(()),
     }
@@ -76,7 +74,7 @@ fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
 
     let mut renderer = renderer(METHOD)?;
     let picture = draw(gpu, renderer.as_mut(), &without, &room.view)?;
-    match pass(&room.exam.judge(&picture.hits, &terms_of(METHOD))) {
+    match pass(&room.exam.judge(&picture.hits, &terms_of(METHOD)?)) {
         Ok(()) => Err("the picture without a ball passed".into()),
         Err(_) => Ok(()),
     }
@@ -85,7 +83,7 @@ fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
 fn rejects_between_methods(gpu: &Gpu) -> Result<(), Failed> {
     let room = room(gpu, SCENE)?;
     let hits = picture(gpu, SCENE, &preset(METHOD)?)?;
-    let promise = promise_of(METHOD);
+    let promise = terms_of(METHOD)?.promise;
     pass(&room.exam.compare((&hits, promise), (&hits, promise)))?;
     let mut shifted = hits.to_vec();
     shifted.rotate_right(1);

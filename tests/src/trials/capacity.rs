@@ -4,18 +4,18 @@
 use bench_scenes::{Overrides, load};
 use fbvh::{TraceOptions, Tracer, Tree};
 use glam::Vec3;
-use harness::judge::{Exam, terms_of};
-use harness::methods::{METHODS, tree_options};
+use harness::judge::Exam;
+use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, View};
 
 use super::agreement::pass;
-use super::{draw, on_gpu, renderer};
+use super::{draw, on_gpu, renderer, terms_of, tree_options};
 
 pub(super) fn trials() -> Vec<Trial> {
-    let dense_leaves = METHODS.iter().map(|method| {
+    let dense_leaves = methods().iter().map(|method| {
         let name = format!("capacity::dense_leaf::{}", method.name);
         on_gpu(name, move |gpu| dense_leaf(gpu, method.name))
     });
@@ -42,7 +42,7 @@ fn dense_leaf(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let picture = draw(gpu, renderer.as_mut(), &scene, &view)?;
     let oracle = Oracle::new(&scene);
     let exam = Exam::new(&scene, &oracle, &picture.rays);
-    let findings = exam.judge(&picture.hits, &terms_of(method));
+    let findings = exam.judge(&picture.hits, &terms_of(method)?);
     let judged = findings.measured + findings.excused;
     if judged < 50 {
         return Err(format!("needed 50 hits to judge, found {judged}").into());
@@ -60,7 +60,7 @@ fn different_ways(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let view = View::new(camera, 16, 12)?;
     let picture = draw(gpu, renderer(method)?.as_mut(), &scene, &view)?;
 
-    let options = tree_options(method).ok_or("the method has no tree")?;
+    let options = tree_options(method)?;
     let tree = Tree::build(&scene, &options)?;
     let twins = Tracer::new(&tree, &scene, TraceOptions::DEFAULT).first_hits(&picture.rays);
     let is_same = |ours: &Hit, twin: &Hit| {

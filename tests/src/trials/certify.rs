@@ -3,8 +3,8 @@
 
 use std::path::PathBuf;
 
-use harness::certify::record::Certificate;
-use harness::certify::{Order, run};
+use experiments::certify::record::Certificate;
+use experiments::certify::{Order, run};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 

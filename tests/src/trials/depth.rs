@@ -2,12 +2,11 @@
 
 use fbvh::{EMPTY, Kind, LEAF, Tree};
 use glam::{DVec3, Vec3};
-use harness::methods::tree_options;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{Gpu, Targets, render};
 use metaball_core::{Aabb, Camera, Kernel, Metaball, Ray, Scene, View};
 
-use super::{load, on_gpu, preset, view_of};
+use super::{load, on_gpu, preset, tree_options, view_of};
 
 /// By what part of a scene unit boxes are grown or shrunk to be certainly met or certainly missed: the
 /// shader's slabs are in f32, and the scenes lie a few units from the eye.
@@ -30,7 +29,7 @@ pub(super) fn trials() -> Vec<Trial> {
 /// Each pixel's depth lies between those of two walks, which agree about most rays. Depths that were
 /// moved by a pixel do not.
 fn as_walked(gpu: &Gpu, method: &str, scene: &Scene, view: &View) -> Result<(), Failed> {
-    let tree = Tree::build(scene, &tree_options(method).ok_or("the method has no tree")?)?;
+    let tree = Tree::build(scene, &tree_options(method)?)?;
     let mut renderer = preset(method)?.renderer(true);
     renderer.build(gpu, scene)?;
     let has_colors = scene.colors().is_some();

@@ -1,7 +1,7 @@
 //! Fragment lists: that the terms for a cubic in the field's place still catch what is wrong, and what
 //! becomes of more separators than an array holds.
 
-use harness::judge::{Exam, terms_of};
+use harness::judge::Exam;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
@@ -9,7 +9,7 @@ use metaball_core::reference::Oracle;
 use super::agreement::pass;
 use super::canaries::{Spoil, rejects_spoilt};
 use super::gallery::room;
-use super::{SIZE, draw, on_gpu, renderer, view_of};
+use super::{SIZE, draw, on_gpu, renderer, terms_of, view_of};
 
 const METHOD: &str = "illes";
 const SCENE: &str = "random-200";
@@ -39,7 +39,7 @@ pub(super) fn trials() -> Vec<Trial> {
 /// A promise that holds for few rays is none.
 fn most_rays_are_promised(gpu: &Gpu) -> Result<(), Failed> {
     let room = room(gpu, SCENE)?;
-    let promise = terms_of(METHOD).promise;
+    let promise = terms_of(METHOD)?.promise;
     let rays = room.exam.rays().iter().zip(room.exam.truths());
     let promised = rays.filter(|(ray, truth)| promise.holds(&room.scene.scene, ray, truth)).count();
     let needed = room.exam.rays().len() * 8 / 10;
@@ -58,7 +58,7 @@ fn crowd(gpu: &Gpu, method: &str, is_marked: bool) -> Result<(), Failed> {
     let drawn = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
     let oracle = Oracle::new(&scene.scene);
     let exam = Exam::new(&scene.scene, &oracle, &drawn.rays);
-    pass(&exam.judge(&drawn.hits, &terms_of(method)))?;
+    pass(&exam.judge(&drawn.hits, &terms_of(method)?))?;
     let marked = drawn.hits.iter().filter(|hit| hit.fallback).count();
     if (marked > 0) != is_marked {
         return Err(format!("{marked} pixels are marked").into());

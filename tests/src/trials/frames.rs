@@ -3,19 +3,19 @@
 
 use std::sync::Arc;
 
-use harness::judge::{Exam, terms_of};
-use harness::methods::METHODS;
+use harness::judge::Exam;
+use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Verdict;
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 
 use super::agreement::pass;
-use super::{draw, load, on_gpu, renderer, view_of};
+use super::{draw, load, on_gpu, renderer, terms_of, view_of};
 
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials = vec![on_gpu("frames::pixels_to_rays".to_owned(), pixels_to_rays)];
-    for method in METHODS {
+    for method in methods() {
         let name = format!("frames::twice_the_same::{}", method.name);
         trials.push(on_gpu(name, move |gpu| twice_the_same(gpu, method.name)));
         let name = format!("frames::behind_a_wall::{}", method.name);
@@ -62,7 +62,7 @@ fn behind_a_wall(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     }
     let oracle = Oracle::new(&scene.scene);
     let exam = Exam::new(&scene.scene, &oracle, &with.rays);
-    pass(&exam.judge(&with.hits, &terms_of(method)))
+    pass(&exam.judge(&with.hits, &terms_of(method)?))
 }
 
 /// The camera's stored axes err by half a unit in the last place each, so do the two products, the
@@ -71,7 +71,7 @@ fn pixels_to_rays(gpu: &Gpu) -> Result<(), Failed> {
     const ALLOWED: f64 = 8.0 * f32::EPSILON as f64;
     let scene = load("random-200")?;
     let view = view_of(&scene)?;
-    let mut renderer = renderer(METHODS[0].name)?;
+    let mut renderer = renderer(methods()[0].name)?;
     let picture = draw(gpu, renderer.as_mut(), &scene.scene, &view)?;
     for (pixel, ray) in picture.rays.iter().enumerate() {
         let (column, row) = (pixel as u32 % view.width(), pixel as u32 / view.width());

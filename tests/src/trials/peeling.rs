@@ -2,7 +2,7 @@
 //! section 6.
 
 use bench_scenes::Case;
-use harness::judge::{Exam, Ruling, terms_of};
+use harness::judge::{Exam, Ruling};
 use kanamori_peel::{Options, Renderer};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
@@ -10,7 +10,7 @@ use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Metaball, Ray, Verdict, View};
 
 use super::agreement::pass;
-use super::{draw, load, on_gpu, renderer, view_of};
+use super::{draw, load, on_gpu, renderer, terms_of, view_of};
 
 /// What must become of a case, beside that no promise is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +88,7 @@ fn special_case(
     let picture = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
     let oracle = Oracle::new(&scene.scene);
     let exam = Exam::new(&scene.scene, &oracle, &picture.rays);
-    let terms = terms_of(method);
+    let terms = terms_of(method)?;
     pass(&exam.judge(&picture.hits, &terms))?;
     let is_excused =
         |(ray, hit): &(usize, &Hit)| exam.rule(*ray, hit, &terms) == Ok(Ruling::Excused);

@@ -1,6 +1,6 @@
 //! Shaders made for a scene find what general ones find, and do not take more memory.
 
-use harness::methods::METHODS;
+use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::{Generality, Hit, Metaball, Scene, View};
@@ -12,7 +12,7 @@ pub(super) fn trials() -> Vec<Trial> {
         let name = format!("specialisation::finds_the_same::{method}");
         on_gpu(name, move |gpu| finds_the_same(gpu, method))
     };
-    METHODS.iter().map(|method| trial(method.name)).collect()
+    methods().iter().map(|method| trial(method.name)).collect()
 }
 
 /// Equal balls of strength 1 without colours: all there is to leave out. A strength read in place of

@@ -2,16 +2,15 @@
 //! else, and says so where it is stated to.
 
 use bench_scenes::cases;
-use harness::judge::terms_of;
+use experiments::stability::cell::{Cell, Outcome};
+use experiments::stability::limits::expected;
+use experiments::stability::stand::Stand;
 use harness::settings::Setting;
 use harness::settings::variants::entrants;
-use harness::stability::cell::{Cell, Outcome};
-use harness::stability::limits::expected;
-use harness::stability::stand::Stand;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 
-use super::on_gpu;
+use super::{on_gpu, terms_of};
 
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials: Vec<_> = entrants()
@@ -81,7 +80,7 @@ fn notices_a_broken_promise(gpu: &Gpu) -> Result<(), Failed> {
         let cells: Vec<Cell> = stand.attempt(case, 2.0, |_| None)?;
         Ok(cells.iter().map(|cell| cell.outcome).collect())
     };
-    let found = (outcome(terms_of("kanamori"))?, outcome(terms_of("kanamori-robust"))?);
+    let found = (outcome(terms_of("kanamori")?)?, outcome(terms_of("kanamori-robust")?)?);
     if found != (vec![Outcome::Lost], vec![Outcome::Broken]) {
         return Err(format!("needed Lost, then Broken, found {found:?}").into());
     }

@@ -1,18 +1,16 @@
 //! The tracers on the CPU and in WGSL are twins: along the same rays they find the same.
 
 use fbvh::{TraceOptions, Tracer, Tree};
-use harness::judge::promise::promise_of;
-use harness::judge::terms_of;
-use harness::methods::{METHODS, tree_options};
+use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 
 use super::agreement::pass;
 use super::gallery::{picture, room};
-use super::{on_gpu, preset, scenes};
+use super::{on_gpu, preset, scenes, terms_of, tree_options};
 
 pub(super) fn trials() -> Vec<Trial> {
-    let traced = METHODS.iter().filter(|method| tree_options(method.name).is_some());
+    let traced = methods().iter().filter(|method| method.technique.tree().is_some());
     traced
         .flat_map(|method| scenes().map(move |scene| (scene, method.name)))
         .map(|(scene, method)| {
@@ -25,12 +23,12 @@ pub(super) fn trials() -> Vec<Trial> {
 /// The CPU's hits keep the promise of the method, and are the shader's wherever it promises any.
 fn hit_for_hit(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    let options = tree_options(method).ok_or("the method has no tree")?;
+    let options = tree_options(method)?;
     let tree = Tree::build(&room.scene.scene, &options)?;
     let tracer = Tracer::new(&tree, &room.scene.scene, TraceOptions::DEFAULT);
     let hits = tracer.first_hits(room.exam.rays());
-    pass(&room.exam.judge(&hits, &terms_of(method)))?;
-    let promise = promise_of(method);
+    pass(&room.exam.judge(&hits, &terms_of(method)?))?;
+    let promise = terms_of(method)?.promise;
     let picture = picture(gpu, scene, &preset(method)?)?;
     pass(&room.exam.compare((&hits, promise), (&picture, promise)))
 }

@@ -128,7 +128,6 @@ impl Cache {
 mod tests {
     use super::*;
     use crate::auto::choice::Errors;
-    use crate::output::tests::scratch;
 
     fn key(content: &str) -> Key {
         Key {
@@ -144,8 +143,8 @@ mod tests {
 
     #[test]
     fn only_the_same_question_has_an_answer_and_broken_files_have_none() {
-        let folder = scratch("choices");
-        let cache = Cache::at(folder.clone());
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::at(folder.path().to_owned());
         let choice = Choice {
             setting: "fbvh".to_owned(),
             max_error: 0.5,
@@ -161,13 +160,12 @@ mod tests {
         assert_eq!(cache.find(&Key { commit: "d".to_owned(), ..key("one") }), None);
 
         // A file under this name that is about something else, and half a file.
-        let path = |key: &Key| folder.join(key.file_name().expect("a name"));
+        let path = |key: &Key| folder.path().join(key.file_name().expect("a name"));
         fs::copy(path(&key("one")), path(&key("other"))).expect("copied");
         assert_eq!(cache.find(&key("other")), None);
         let text = fs::read_to_string(path(&key("one"))).expect("written");
         fs::write(path(&key("one")), &text[..text.len() / 2]).expect("written");
         assert_eq!(cache.find(&key("one")), None);
-        fs::remove_dir_all(folder).expect("removable");
         Cache::none().keep(&key("one"), &choice).expect("nothing to do");
         assert_eq!(Cache::none().find(&key("one")), None);
     }

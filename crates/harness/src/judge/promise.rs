@@ -3,7 +3,7 @@
 //! A published method may be wrong where its paper says so, and nowhere else. Whether a ray is such
 //! a place is decided here from the scene and the truth alone, never from what the method drew.
 
-use illes_fraglist::{ARRAY_CAPACITY, Piece};
+use illes_fraglist::Piece;
 use metaball_core::reference::Truth;
 use metaball_core::{Metaball, Ray, Scene};
 
@@ -38,27 +38,6 @@ pub enum Promise {
     },
     /// Every ray.
     Always,
-}
-
-/// The promise of a method, by name.
-///
-/// # Panics
-/// When nobody has written down what the method promises.
-pub fn promise_of(method: &str) -> Promise {
-    match method {
-        "fbvh" => Promise::Projection,
-        "bvh" => Promise::ProjectionOfCover,
-        "kanamori" => Promise::Peeling { list_capacity: kanamori_peel::LIST_CAPACITY as usize },
-        "illes" | "illes-compute" => {
-            Promise::Fragments { piece: Piece::Cubic, array_capacity: ARRAY_CAPACITY }
-        }
-        "illes-absolute" => {
-            Promise::Fragments { piece: Piece::AbsoluteCubic, array_capacity: ARRAY_CAPACITY }
-        }
-        "illes-exact" => Promise::Fragments { piece: Piece::Exact, array_capacity: ARRAY_CAPACITY },
-        "fbvh-certified" | "kanamori-robust" | "illes-robust" => Promise::Always,
-        _ => panic!("method {method}: needed a line in promise_of, found none"),
-    }
 }
 
 impl Promise {

@@ -1,16 +1,19 @@
 //! The knobs of every method: each turned on its own, from the method's preset.
 
 use fbvh::{Boxes, Classes, Cost, Fitting, Options, Reading, Structure, TraceOptions};
-use illes_fraglist::{Gather, Piece, Sort};
+use illes_fraglist::Sort;
 use kanamori_peel::{Clipping, Outline, Registration};
 
-use super::{Knobs, Setting};
-use crate::methods::{METHODS, Method, find, tree_options};
+use super::Setting;
+use crate::methods::{Method, find, methods};
+use crate::technique::Technique;
 
 /// Every setting of a chart of error against time: each method's preset, and each of its knobs
 /// turned. Knobs that do not bear on a method are not in its list.
 pub fn settings() -> Vec<Setting> {
-    METHODS.iter().flat_map(|method| std::iter::once(method.into()).chain(turned(method))).collect()
+    let with_turned =
+        |method: &'static Method| std::iter::once(method.into()).chain(turned(method));
+    methods().iter().flat_map(with_turned).collect()
 }
 
 /// A few of them, to see that everything works.
@@ -42,13 +45,17 @@ pub fn candidates() -> Vec<Setting> {
 
 /// A method with one of its knobs turned, for each position that differs from the preset.
 fn turned(method: &'static Method) -> Vec<Setting> {
-    match method.name {
-        "bvh" => [searches(method, false), leaves(method)].concat(),
-        "fbvh" => [searches(method, true), leaves(method), fitted(method)].concat(),
-        "fbvh-certified" => certified(method),
-        "kanamori" => kanamori(method),
-        "kanamori-robust" => Vec::new(),
-        _ => fragment_lists(method),
+    match method.technique {
+        Technique::Tree(options, _) => match options.structure {
+            Structure::ModifiedBvh => [searches(method, false), leaves(method)].concat(),
+            Structure::Fitted(_) => {
+                [searches(method, true), leaves(method), fitted(method)].concat()
+            }
+            Structure::Certified(classes) => certified(method, classes),
+        },
+        Technique::Peeling(preset) => peeling(method, preset),
+        Technique::Fragments(preset) => fragment_lists(method, preset),
+        Technique::TileSearch | Technique::Own(_) => Vec::new(),
     }
 }
 
@@ -58,11 +65,11 @@ fn tree(
     value: &str,
     change: impl Fn(&mut Options, &mut TraceOptions),
 ) -> Option<Setting> {
-    let preset = tree_options(method.name)?;
-    let (mut options, mut trace) = (preset, TraceOptions::DEFAULT);
+    let Technique::Tree(preset, preset_trace) = method.technique else { return None };
+    let (mut options, mut trace) = (preset, preset_trace);
     change(&mut options, &mut trace);
-    let is_preset = options == preset && trace == TraceOptions::DEFAULT;
-    (!is_preset).then(|| Setting::with(method, option, value, Knobs::Tree(options, trace)))
+    let is_preset = options == preset && trace == preset_trace;
+    (!is_preset).then(|| Setting::with(method, option, value, Technique::Tree(options, trace)))
 }
 
 /// How closely the secant search closes in (section 3), and how the leaf test is read.
@@ -112,11 +119,7 @@ fn fitted(method: &'static Method) -> Vec<Setting> {
 }
 
 /// When a box that may hold surface is a leaf.
-fn certified(method: &'static Method) -> Vec<Setting> {
-    let Some(Options { structure: Structure::Certified(preset), .. }) = tree_options(method.name)
-    else {
-        return Vec::new();
-    };
+fn certified(method: &'static Method, preset: Classes) -> Vec<Setting> {
     let sizes = [("8", 8), ("12", 12), ("24", 24), ("48", 48)];
     let sides = [("1/4", 0.25), ("1", 1.0)];
     let sizes = sizes.map(|(name, leaf_size)| ("leaf size", name, Classes { leaf_size, ..preset }));
@@ -133,9 +136,8 @@ fn certified(method: &'static Method) -> Vec<Setting> {
 
 /// Threshold and way of clipping, length of lists, and what bears on time alone: sections 4.2 and
 /// 5.1 to 5.4.
-fn kanamori(method: &'static Method) -> Vec<Setting> {
+fn peeling(method: &'static Method, preset: kanamori_peel::Options) -> Vec<Setting> {
     use kanamori_peel::Options;
-    let preset = Options::default();
     let knobs = [
         ("threshold", "1e-1", Options { threshold: 1e-1, ..preset }),
         ("threshold", "1e-2", Options { threshold: 1e-2, ..preset }),
@@ -153,30 +155,24 @@ fn kanamori(method: &'static Method) -> Vec<Setting> {
         ("tiles", "16", Options { tiles: 16, ..preset }),
         ("registration", "device", Options { registration: Registration::Device, ..preset }),
     ];
-    let setting =
-        |(option, value, options)| Setting::with(method, option, value, Knobs::Peeling(options));
+    let setting = |(option, value, options)| {
+        Setting::with(method, option, value, Technique::Peeling(options))
+    };
     knobs.map(setting).into()
 }
 
 /// Length of the local array, and where balls are sorted.
-fn fragment_lists(method: &'static Method) -> Vec<Setting> {
+fn fragment_lists(method: &'static Method, preset: illes_fraglist::Options) -> Vec<Setting> {
     use illes_fraglist::Options;
-    let preset = match method.name {
-        "illes" => Options::default(),
-        "illes-absolute" => Options { piece: Piece::AbsoluteCubic, ..Options::default() },
-        "illes-exact" => Options { piece: Piece::Exact, ..Options::default() },
-        "illes-robust" => Options { piece: Piece::Robust, ..Options::default() },
-        "illes-compute" => Options { gather: Gather::Tiles, ..Options::default() },
-        _ => return Vec::new(),
-    };
     let knobs = [
         ("array", "6", Options { array_capacity: 6, ..preset }),
         ("array", "12", Options { array_capacity: 12, ..preset }),
         ("array", "24", Options { array_capacity: 24, ..preset }),
         ("sort", "device", Options { sort: Sort::Device, ..preset }),
     ];
-    let setting =
-        |(option, value, options)| Setting::with(method, option, value, Knobs::Fragments(options));
+    let setting = |(option, value, options)| {
+        Setting::with(method, option, value, Technique::Fragments(options))
+    };
     knobs.map(setting).into()
 }
 
@@ -196,7 +192,7 @@ mod tests {
         for settings in [settings(), quick_settings(), candidates()] {
             let names: BTreeSet<_> = settings.iter().map(Setting::to_string).collect();
             assert_eq!(names.len(), settings.len());
-            for method in METHODS {
+            for method in methods() {
                 assert!(names.contains(method.name), "{}", method.name);
             }
             for setting in &settings {

@@ -1,32 +1,33 @@
-//! Who is tried for stability: all methods, and options of theirs that bear on where they fail.
+//! What is tried for stability: all methods, and options of theirs that bear on where they fail.
 
 use illes_fraglist::Piece;
 
-use super::{Knobs, Setting};
-use crate::methods::{METHODS, Method};
+use super::Setting;
+use crate::methods::{Method, methods};
+use crate::technique::Technique;
 
 /// All of them, in the order of tables: variants stand behind their method, with a name in which
 /// the option stands behind a plus.
 pub fn entrants() -> Vec<Setting> {
-    METHODS
-        .iter()
-        .flat_map(|method| std::iter::once(method.into()).chain(variant(method)))
-        .collect()
+    let with_variant =
+        |method: &'static Method| std::iter::once(method.into()).chain(variant(method));
+    methods().iter().flat_map(with_variant).collect()
 }
 
 /// The one option of a method that is tried beside its preset.
 fn variant(method: &'static Method) -> Option<Setting> {
-    match method.name {
-        "kanamori" => {
-            let fine = kanamori_peel::Options { threshold: 1e-6, ..Default::default() };
-            let setting = Setting::with(method, "threshold", "1e-6", Knobs::Peeling(fine));
-            Some(setting.called("kanamori+fine", "… clipped to 1e-6"))
+    match method.technique {
+        Technique::Peeling(preset) => {
+            let fine = Technique::Peeling(kanamori_peel::Options { threshold: 1e-6, ..preset });
+            let setting = Setting::with(method, "threshold", "1e-6", fine);
+            let name = format!("{}+fine", method.name);
+            Some(setting.called(&name, "… clipped to 1e-6"))
         }
-        "illes-exact" => {
-            let piece = Piece::Exact;
-            let short = illes_fraglist::Options { piece, array_capacity: 30, ..Default::default() };
-            let setting = Setting::with(method, "array", "30", Knobs::Fragments(short));
-            Some(setting.called("illes-exact+30", "… array of 30"))
+        Technique::Fragments(preset) if preset.piece == Piece::Exact => {
+            let short = illes_fraglist::Options { array_capacity: 30, ..preset };
+            let setting = Setting::with(method, "array", "30", Technique::Fragments(short));
+            let name = format!("{}+30", method.name);
+            Some(setting.called(&name, "… array of 30"))
         }
         _ => None,
     }
@@ -43,6 +44,6 @@ mod tests {
             assert!(all[..index].iter().all(|other| other.name != entrant.name));
             assert_eq!(entrant.options.is_empty(), entrant.name == entrant.method.name);
         }
-        assert!(all.len() > METHODS.len());
+        assert!(all.len() > methods().len());
     }
 }

@@ -1,0 +1,236 @@
+//! The command `certify`: the certified tree against the oracle, over as many rays as one has time for.
+//!
+//! Scenes are every stability case within the stated limits, then arbitrary ones by seed. The rays of each
+//! are a picture's, others at its balls, along its surface, along the faces of the tree's boxes, and out of
+//! the solid. The CPU's tracer answers all of them, the shaders a third; nobody may be wrong about a ray
+//! that is clear to the oracle.
+
+pub mod aim;
+pub mod card;
+pub mod record;
+pub mod shard;
+pub mod tally;
+
+use std::fs;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use metaball_core::gpu::{AdapterChoice, Gpu};
+
+use self::card::Card;
+use self::record::{Certificate, DISTANCES, SCALES};
+use self::shard::{Shard, shards};
+use self::tally::{Count, Place, Tracer};
+use crate::console::{self, ProgressBar, table};
+use harness::numbers::{grouped, small};
+
+/// What to hold against the oracle.
+#[derive(Debug, Clone)]
+pub struct Order {
+    /// Different rays, at least.
+    pub rays: u64,
+    /// A few values of each stability case and few rays a scene.
+    pub quick: bool,
+    /// Where arbitrary scenes begin.
+    pub seed: u64,
+    /// What runs the shaders; `None` leaves them out.
+    pub adapter: Option<AdapterChoice>,
+    /// Folder for `certify.json`.
+    pub out: PathBuf,
+}
+
+impl Order {
+    /// Rays of an arbitrary scene.
+    fn rays_of_scene(&self) -> usize {
+        if self.quick { 1200 } else { 98_304 }
+    }
+}
+
+/// How much work an interruption may lose.
+const SECONDS_OF_GROUP: f64 = 10.0;
+
+/// Holds the certified tree against the oracle, prints what was counted and writes it. What an interrupted
+/// run of the same command has done is taken over.
+///
+/// # Errors
+/// When there is a shortfall, of which the first wrong answers are printed in full; without the adapter;
+/// when the device fails, or a file cannot be written.
+pub fn certify(order: &Order) -> anyhow::Result<()> {
+    let gpu = order.adapter.as_ref().map(Gpu::new).transpose()?;
+    if let Some(gpu) = &gpu {
+        console::note(&gpu.report().to_string());
+    }
+    let unfinished = order.out.join("unfinished.json");
+    let fresh = Certificate::fresh(gpu.as_ref());
+    let left = fresh.unfinished(&unfinished);
+    if left.is_some() {
+        console::note("Going on where an interrupted run has stopped.");
+    }
+    let certificate =
+        run(order, gpu.as_ref(), left.unwrap_or(fresh), |state| state.write(&unfinished))?;
+
+    let path = order.out.join("certify.json");
+    certificate.write(&path)?;
+    if let Err(error) = fs::remove_file(&unfinished) {
+        console::note(&format!("{}: {error}", unfinished.display()));
+    }
+    console::line(&summary(&certificate));
+    console::line(&format!("\n{}", path.display()));
+    let shortfalls = certificate.shortfalls(order.rays);
+    anyhow::ensure!(shortfalls.is_empty(), "no certificate: {}", shortfalls.join("; "));
+    Ok(())
+}
+
+/// Goes on from a state until there are enough rays; `keep` is told after every group of scenes, and in
+/// the end.
+///
+/// # Errors
+/// When a tree cannot be built, the device fails, or the state cannot be kept.
+pub fn run(
+    order: &Order,
+    gpu: Option<&Gpu>,
+    mut certificate: Certificate,
+    mut keep: impl FnMut(&Certificate) -> anyhow::Result<()>,
+) -> anyhow::Result<Certificate> {
+    let (mut start, mut tally) = (Instant::now(), certificate.tally());
+    let mut card = gpu.map(Card::new).transpose()?;
+    let progress = ProgressBar::new(order.rays);
+    progress.reach(certificate.rays);
+    for shard in shards(order.seed, order.quick).skip(certificate.shards) {
+        if certificate.rays >= order.rays && matches!(shard, Shard::Arbitrary(_)) {
+            break;
+        }
+        tally.add(shard.hold(order.rays_of_scene(), card.as_mut())?);
+        certificate.take(&tally);
+        certificate.shards += 1;
+        progress.reach(certificate.rays.min(order.rays));
+        let seconds = start.elapsed().as_secs_f64();
+        if seconds > SECONDS_OF_GROUP {
+            let wrong: u64 = certificate.counts.iter().map(|row| row.count.wrong).sum();
+            let rays = grouped(certificate.rays as usize);
+            progress.stage(format!("{rays} rays, {wrong} wrong"));
+            certificate.seconds += seconds;
+            start = Instant::now();
+            keep(&certificate)?;
+        }
+    }
+    certificate.seconds += start.elapsed().as_secs_f64();
+    keep(&certificate)?;
+    Ok(certificate)
+}
+
+/// Counts, errors and wrong answers as text.
+fn summary(certificate: &Certificate) -> String {
+    let mut text = counts(certificate);
+    for tracer in tracers(certificate) {
+        text += &format!("\n\n{}", errors(certificate, tracer));
+    }
+    let rays = grouped(certificate.rays as usize);
+    let near = grouped(certificate.near() as usize);
+    text += &format!(
+        "\n\n{rays} rays on {} scenes, {near} of them within 1e-3 radii of tangency or a box's face, in \
+         {:.0} s",
+        certificate.shards, certificate.seconds
+    );
+    for wrong in certificate.wrong.iter().take(10) {
+        let heading = &wrong.heading;
+        text += &format!(
+            "\n\n{}: {}, {} at {}\nfrom {:?} towards {:?} up to {:?}\n{}",
+            wrong.shard,
+            heading.tracer,
+            heading.question,
+            heading.aim,
+            wrong.origin,
+            wrong.direction,
+            wrong.t_max,
+            wrong.account
+        );
+    }
+    text
+}
+
+/// Who answered.
+fn tracers(certificate: &Certificate) -> impl Iterator<Item = Tracer> {
+    let answered = |tracer: &Tracer| certificate.sum(*tracer, |count| count.rays) > 0;
+    [Tracer::Cpu, Tracer::Adapter].into_iter().filter(answered)
+}
+
+fn counts(certificate: &Certificate) -> String {
+    let headings = [
+        "rays aimed at",
+        "rays",
+        "near",
+        "hits",
+        "misses",
+        "ambiguous",
+        "undecided",
+        "clear",
+        "wrong",
+    ];
+    let cells = |name: String, count: Count| {
+        let numbers = [
+            count.rays,
+            count.near,
+            count.hits,
+            count.misses,
+            count.ambiguous,
+            count.undecided,
+            count.undecided_clear,
+            count.wrong,
+        ];
+        std::iter::once(name).chain(numbers.map(|n| grouped(n as usize))).collect::<Vec<_>>()
+    };
+    let row = |row: &record::CountRow| {
+        let tally::Heading { tracer, question, aim } = row.heading;
+        cells(format!("{tracer}, {question}: {aim}"), row.count)
+    };
+    table(&headings, &certificate.counts.iter().map(row).collect::<Vec<_>>())
+}
+
+/// Relative RMS errors of t where they are held: a line for each scale, a column for each distance.
+fn errors(certificate: &Certificate, tracer: Tracer) -> String {
+    let first = format!("{tracer}: relative RMS error of t; R");
+    let headings: Vec<_> = std::iter::once(first)
+        .chain(DISTANCES.map(|distance| format!("from 1e{distance} R")))
+        .collect();
+    let headings: Vec<_> = headings.iter().map(String::as_str).collect();
+    let row = |scale: i32| {
+        let cell = |distance: i32| {
+            let wanted = Place { tracer, scale, distance };
+            let found = certificate.errors.iter().find(|row| row.place == wanted);
+            found.map_or_else(String::new, |row| small(row.errors.rms()))
+        };
+        std::iter::once(format!("1e{scale}")).chain(DISTANCES.map(cell)).collect::<Vec<_>>()
+    };
+    let held = certificate.held_errors(tracer);
+    format!(
+        "{}\nall of these: {}, at most {}",
+        table(&headings, &SCALES.map(row).collect::<Vec<_>>()),
+        small(held.rms()),
+        small(held.worst)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn order(rays: u64) -> Order {
+        Order { rays, quick: true, seed: 1, adapter: None, out: PathBuf::from("unused") }
+    }
+
+    /// The run stops anywhere: here after the cases, before the first arbitrary scene.
+    #[test]
+    fn a_short_run_is_a_certificate_and_goes_on_where_it_stopped() {
+        let go = |rays, from| run(&order(rays), None, from, |_| Ok(())).expect("run");
+        let whole = go(12_000, Certificate::fresh(None));
+        assert_eq!(whole.shortfalls(12_000), Vec::<String>::new(), "{}", summary(&whole));
+        assert!(summary(&whole).contains("CPU, exit: way out"));
+
+        let cases = go(1, Certificate::fresh(None));
+        assert!(cases.shards < whole.shards);
+        let taken_up = go(12_000, cases);
+        let without_time = |certificate| Certificate { seconds: 0.0, ..certificate };
+        assert_eq!(without_time(taken_up), without_time(whole));
+    }
+}

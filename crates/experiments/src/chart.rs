@@ -1,0 +1,436 @@
+//! The command `chart`: error against time of every method and every knob, time and memory against
+//! the number of balls, time against density and depth complexity.
+
+mod frontier;
+mod moved;
+mod page;
+pub mod plan;
+mod shortlist;
+mod stage;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use anyhow::Context;
+use bench_scenes::{BenchScene, Overrides, load};
+use metaball_core::Camera;
+use metaball_core::gpu::{AdapterChoice, Gpu};
+use serde::{Deserialize, Serialize};
+
+use self::moved::Moved;
+use self::plan::{Extent, Planned, Purpose, plan};
+use crate::conclusions::conclusions;
+use crate::console::{self, ProgressBar};
+use harness::contest::{Rules, hold, steps};
+use harness::machine::Provenance;
+use harness::measure::Sampling;
+use harness::numbers::decimal;
+use harness::output::write_json;
+use harness::record::{Adapter, Record, Status};
+use harness::settings::Setting;
+use picture_files::write_atomically;
+
+/// Name and version of the format of `chart.json`.
+pub const SCHEMA: &str = "metaball-chart/1";
+
+/// What to measure.
+#[derive(Debug, Clone)]
+pub struct Order {
+    /// How much.
+    pub extent: Extent,
+    /// Scenes for error against time, in the place of the extent's own.
+    pub scenes: Vec<String>,
+    /// Pixels across and down; where it is left open 640 × 480, on an adapter that computes on the
+    /// CPU 320 × 240, and 64 × 48 when quick.
+    pub size: Option<(u32, u32)>,
+    /// What to draw with.
+    pub adapter: AdapterChoice,
+    /// Folder for `chart.json` and `chart.html`.
+    pub out: PathBuf,
+    /// Whether to begin anew where an interrupted run left its results.
+    pub fresh: bool,
+}
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Chart {
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
+    /// What drew.
+    pub adapter: Adapter,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Whether everything planned was measured.
+    pub complete: bool,
+    /// What a reader should know.
+    pub remarks: Vec<String>,
+    /// One for each scene and purpose, in the order measured.
+    pub groups: Vec<Group>,
+    /// How this run compares with the one before it in the same folder, if there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
+}
+
+/// One scene, measured for one purpose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Group {
+    /// What for.
+    pub purpose: Purpose,
+    /// What was loaded.
+    pub spec: String,
+    /// Number of balls.
+    pub balls: usize,
+    /// Mean number of other balls' supports that hold a ball's centre.
+    pub density: f64,
+    /// Mean number of supports that a ray meets.
+    pub supports_per_ray: f64,
+    /// What a reader should know.
+    pub remarks: Vec<String>,
+    /// One for each setting.
+    pub records: Vec<Record>,
+}
+
+/// Five frames, or what fits into two seconds.
+const FRAMES: Sampling = Sampling { most: 5, enough: Duration::from_secs(2) };
+
+/// A method whose frame took longer than this is not tried on the next, harder scene of its row.
+const PATIENCE_MS: f64 = 4_000.0;
+
+/// Measures and writes the file and the page. A run that was interrupted goes on where it stopped.
+///
+/// # Errors
+/// Without an adapter, when a file cannot be written, or when nothing could be measured.
+pub fn chart(order: &Order) -> anyhow::Result<()> {
+    let gpu = Gpu::new(&order.adapter)?;
+    console::note(&gpu.report().to_string());
+    let path = order.out.join("chart.json");
+    let plan = plan(order.extent, &order.scenes);
+    let mut chart = Chart::begin(&gpu, order);
+    let previous = read(&path)?.filter(|previous| previous.is_like(&chart));
+    let mut before = None;
+    match previous {
+        Some(previous) if previous.complete => before = Some(previous),
+        Some(previous) if !order.fresh && previous.provenance.commit == chart.provenance.commit => {
+            console::note(&format!(
+                "going on with {}: {} of {} scenes are done",
+                path.display(),
+                previous.groups.len(),
+                plan.len()
+            ));
+            chart.groups = previous.groups;
+            chart.remarks = previous.remarks;
+        }
+        _ => {}
+    }
+    chart.measure(&gpu, &plan, &path)?;
+    chart.complete = true;
+    chart.moved = before.map(|before| Moved::between(&before, &chart));
+    chart.write(&path)?;
+    let page = order.out.join("chart.html");
+    write_atomically(&page, page::page(&chart).as_bytes())?;
+
+    for sentence in conclusions(&chart.contests()) {
+        console::line(&sentence);
+    }
+    if let Some(moved) = &chart.moved {
+        console::line(&moved.to_string());
+    }
+    for record in chart.groups.iter().flat_map(|group| &group.records) {
+        if let Some(reason) = &record.reason {
+            console::note(&format!("{}, {}: {reason}", record.scene, record.method));
+        }
+    }
+    console::line(&format!("\n{}", page.display()));
+    let worked = chart.groups.iter().flat_map(|group| &group.records);
+    anyhow::ensure!(
+        worked.into_iter().any(|record| record.status == Status::Ok),
+        "nothing could be measured; the reasons stand above"
+    );
+    Ok(())
+}
+
+impl Chart {
+    fn begin(gpu: &Gpu, order: &Order) -> Self {
+        let size = match order.extent {
+            Extent::Quick => (64, 48),
+            Extent::Whole if gpu.report().is_software() => (320, 240),
+            Extent::Whole => (640, 480),
+        };
+        let (width, height) = order.size.unwrap_or(size);
+        let mut remarks = Vec::new();
+        if order.extent == Extent::Quick {
+            remarks.push("Quick: scenes of a few hundred balls.".to_owned());
+        }
+        if gpu.report().is_software() {
+            remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
+        }
+        Self {
+            provenance: Provenance::here(SCHEMA),
+            adapter: Adapter::from(gpu.report()),
+            width,
+            height,
+            complete: false,
+            remarks,
+            groups: Vec::new(),
+            moved: None,
+        }
+    }
+
+    /// Whether two runs measured the same, up to the program.
+    fn is_like(&self, other: &Self) -> bool {
+        self.provenance.is_like(&other.provenance)
+            && self.adapter == other.adapter
+            && (self.width, self.height) == (other.width, other.height)
+    }
+
+    /// The records of the charts of error, scene by scene.
+    fn contests(&self) -> Vec<&[Record]> {
+        let errors = self.groups.iter().filter(|group| group.purpose == Purpose::Error);
+        errors.map(|group| group.records.as_slice()).collect()
+    }
+
+    /// Measures what is planned and not yet there, and writes the file after each scene.
+    fn measure(&mut self, gpu: &Gpu, plan: &[Planned], path: &Path) -> anyhow::Result<()> {
+        let rules = |planned: &Planned| Rules {
+            settings: planned.settings.clone(),
+            size: (self.width, self.height),
+            sampling: FRAMES,
+            along_path: false,
+            every_pixel: false,
+            counts_work: false,
+        };
+        let rules: Vec<_> = plan.iter().map(rules).collect();
+        let progress = ProgressBar::new(rules.iter().map(steps).sum());
+        let mut done = 0;
+        for (planned, mut rules) in plan.iter().zip(rules) {
+            done += steps(&rules);
+            if self.groups.iter().any(|group| group.is_of(planned)) {
+                progress.skip(done);
+            } else {
+                progress.stage(format!("{}: loading", planned.spec));
+                let tired = self.tired(planned);
+                rules.settings.retain(|setting| !tired.contains_key(setting.method.name));
+                match group(gpu, planned, &rules, &progress, &tired) {
+                    Ok(group) => self.groups.push(group),
+                    Err(error) => {
+                        let remark = format!("{}: {error:#}", planned.spec);
+                        progress.note(&remark);
+                        self.remarks.push(remark);
+                    }
+                }
+                self.write(path)?;
+                progress.reach(done);
+            }
+        }
+        Ok(())
+    }
+
+    /// Methods that were too slow, or gave up, on an easier scene of the same row; with the reason.
+    fn tired(&self, planned: &Planned) -> BTreeMap<&'static str, String> {
+        let mut tired = BTreeMap::new();
+        if planned.purpose == Purpose::Error {
+            return tired;
+        }
+        let row = self.groups.iter().filter(|group| group.purpose == planned.purpose);
+        for record in row.flat_map(|group| &group.records) {
+            let Some(method) = harness::methods::find(&record.method) else { continue };
+            let frame = record.measured.as_ref().map(|measured| measured.frame_ms.median);
+            if let Some(frame) = frame.filter(|&frame| frame > PATIENCE_MS) {
+                let reason = format!("not run: {} took {} ms", record.scene, decimal(frame));
+                tired.insert(method.name, reason);
+            } else if record.status == Status::Skipped {
+                tired.insert(method.name, record.reason.clone().unwrap_or_default());
+            }
+        }
+        tired
+    }
+
+    fn write(&self, path: &Path) -> anyhow::Result<()> {
+        write_json(path, self)
+    }
+}
+
+impl Group {
+    fn is_of(&self, planned: &Planned) -> bool {
+        (&self.purpose, &self.spec) == (&planned.purpose, &planned.spec)
+    }
+}
+
+/// The file of an earlier run, where there is one.
+fn read(path: &Path) -> anyhow::Result<Option<Chart>> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    let text =
+        fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    // A file of another kind or version is no earlier run; it is written over.
+    Ok(serde_json::from_str(&text).ok())
+}
+
+fn group(
+    gpu: &Gpu,
+    planned: &Planned,
+    rules: &Rules,
+    progress: &ProgressBar,
+    tired: &BTreeMap<&'static str, String>,
+) -> anyhow::Result<Group> {
+    let bench = scene(planned)?;
+    let contest = hold(gpu, &bench, rules, progress)?;
+    let mut records = contest.records;
+    for setting in &planned.settings {
+        if let Some(reason) = tired.get(setting.method.name) {
+            records.push(skipped(gpu, &bench, rules, setting, reason));
+        }
+    }
+    Ok(Group {
+        purpose: planned.purpose.clone(),
+        spec: planned.spec.clone(),
+        balls: bench.scene.len(),
+        density: bench_scenes::mean_overlap(&bench.scene),
+        supports_per_ray: stage::supports_per_ray(&bench.scene, &bench.camera),
+        remarks: contest.remarks,
+        records,
+    })
+}
+
+/// The share of pixels that hit at all densities.
+const DENSITY_HITS: f64 = 0.3;
+
+/// The scene, with what its purpose changes about it.
+fn scene(planned: &Planned) -> anyhow::Result<BenchScene> {
+    let bench = load(&planned.spec, &Overrides::default())?;
+    if planned.purpose != Purpose::Density {
+        return Ok(bench);
+    }
+    // The centres' cube from where all supports grow out of it and are still seen.
+    let centers = bench.scene.supports().iter().map(|support| support.center);
+    let cube = centers.fold(metaball_core::Aabb::EMPTY, |cube, center| {
+        cube.union(&metaball_core::Aabb { min: center, max: center })
+    });
+    let camera = Camera::framing(&cube, glam::Vec3::new(0.5, 0.35, 1.0));
+    stage::staged(bench, camera, DENSITY_HITS)
+}
+
+/// The record of a setting that was not run.
+fn skipped(
+    gpu: &Gpu,
+    bench: &BenchScene,
+    rules: &Rules,
+    setting: &Setting,
+    reason: &str,
+) -> Record {
+    Record {
+        scene: bench.name.clone(),
+        balls: bench.scene.len(),
+        kernel: bench.scene.kernel().to_string(),
+        threshold: bench.scene.threshold(),
+        method: setting.method.name.to_owned(),
+        options: setting.options.clone(),
+        width: rules.size.0,
+        height: rules.size.1,
+        adapter: Adapter::from(gpu.report()),
+        status: Status::Skipped,
+        reason: Some(reason.to_owned()),
+        measured: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quick_chart_is_whole_and_resumes() {
+        let Some(gpu) = Gpu::for_test() else { return };
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("chart.json");
+        let order = Order {
+            extent: Extent::Quick,
+            scenes: vec!["two-merging".to_owned()],
+            size: Some((32, 24)),
+            adapter: AdapterChoice::Environment,
+            out: folder.path().to_owned(),
+            fresh: false,
+        };
+        let mut plan = plan(Extent::Quick, &order.scenes);
+        plan.truncate(2);
+        for planned in &mut plan {
+            let kept = ["fbvh", "fbvh, tolerance 1e-2", "illes"];
+            planned.settings.retain(|setting| kept.contains(&setting.to_string().as_str()));
+        }
+        let mut chart = Chart::begin(&gpu, &order);
+        chart.measure(&gpu, &plan[..1], &path).expect("measured");
+
+        // What is there is not measured again, and what is missing is.
+        let mut resumed = read(&path).expect("readable").expect("written");
+        assert!(resumed.is_like(&chart) && !resumed.complete);
+        let done = resumed.groups.clone();
+        resumed.measure(&gpu, &plan, &path).expect("measured");
+        assert_eq!((done.len(), resumed.groups.len()), (1, 2));
+        assert_eq!(resumed.groups[0], done[0]);
+        for group in &resumed.groups {
+            assert!(group.supports_per_ray > 0.0, "{}", group.spec);
+            assert!(group.records.iter().all(|record| record.measured.is_some()));
+        }
+
+        let moved = Moved::between(&resumed, &resumed);
+        assert_eq!(
+            (moved.points, moved.moved.len()),
+            (resumed.groups.iter().map(|group| group.records.len()).sum(), 0)
+        );
+        resumed.moved = Some(moved);
+        let page = page::page(&resumed);
+        for forbidden in ["<script", "http", "url(", "{{", "NaN"] {
+            assert!(!page.contains(forbidden), "{forbidden}");
+        }
+        assert!(page.matches("<svg").count() >= 4 && page.ends_with("</html>\n"));
+    }
+
+    #[test]
+    fn a_tired_method_rests_for_the_rest_of_its_row() {
+        let Some(gpu) = Gpu::for_test() else { return };
+        let order = Order {
+            extent: Extent::Quick,
+            scenes: Vec::new(),
+            size: Some((8, 6)),
+            adapter: AdapterChoice::Environment,
+            out: PathBuf::new(),
+            fresh: true,
+        };
+        let plan = plan(Extent::Quick, &[]);
+        let mut row = plan.iter().filter(|planned| planned.purpose == Purpose::Density);
+        let (easy, hard) = (row.next().expect("a row"), row.next().expect("of two"));
+        let bench = scene(easy).expect("loads");
+        let rules = Rules {
+            settings: Vec::new(),
+            size: (8, 6),
+            sampling: FRAMES,
+            along_path: false,
+            every_pixel: false,
+            counts_work: false,
+        };
+        let record = skipped(&gpu, &bench, &rules, &easy.settings[0], "not run: too slow");
+        let mut chart = Chart::begin(&gpu, &order);
+        chart.groups.push(Group {
+            purpose: Purpose::Density,
+            spec: easy.spec.clone(),
+            balls: 1,
+            density: 1.0,
+            supports_per_ray: 1.0,
+            remarks: Vec::new(),
+            records: vec![record],
+        });
+        let tired = chart.tired(hard);
+        assert_eq!(
+            tired.get(easy.settings[0].method.name).map(String::as_str),
+            Some("not run: too slow")
+        );
+        assert_eq!(tired.len(), 1);
+        assert!(chart.tired(&plan[0]).is_empty(), "charts of error leave nobody out");
+    }
+}

@@ -1,0 +1,112 @@
+//! What a chart measures: which scenes, for what, with which settings.
+
+use serde::{Deserialize, Serialize};
+
+use crate::compare::DEFAULT_SCENES;
+use harness::settings::{Setting, sweeps};
+
+/// How much to measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Extent {
+    /// What tells methods apart.
+    Whole,
+    /// Scenes of a few hundred balls, to see that everything works.
+    Quick,
+}
+
+/// What a scene is measured for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Purpose {
+    /// Error against time: every method, every knob.
+    Error,
+    /// Time and memory against the number of balls, of scenes by this generator.
+    Growth(String),
+    /// Time against density: one place and count of balls, growing radii, and a threshold that
+    /// keeps the number of pixels that hit.
+    Density,
+}
+
+/// A scene, and what to measure on it.
+#[derive(Debug, Clone)]
+pub struct Planned {
+    /// What for.
+    pub purpose: Purpose,
+    /// What to load.
+    pub spec: String,
+    /// Who takes part.
+    pub settings: Vec<Setting>,
+}
+
+/// Whom growth and density are measured of: the published families, and what is faster.
+const CONTESTANTS: &[&str] =
+    &["bvh", "fbvh", "fbvh-certified", "kanamori", "illes", "illes-compute"];
+
+/// Everything to measure, in order. `scenes` are those of the charts of error; where there are none,
+/// those of the extent.
+pub fn plan(extent: Extent, scenes: &[String]) -> Vec<Planned> {
+    let (known, counts, count, densities): (&[&str], &[u32], u32, &[u32]) = match extent {
+        Extent::Whole => (
+            DEFAULT_SCENES,
+            &[1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000],
+            10_000,
+            &[5, 10, 20, 40, 80, 160, 320, 500],
+        ),
+        Extent::Quick => (&["random-200"], &[100, 300], 200, &[5, 10]),
+    };
+    let errors = match extent {
+        Extent::Whole => sweeps::settings(),
+        Extent::Quick => sweeps::quick_settings(),
+    };
+    let presets = sweeps::presets(CONTESTANTS);
+    let scenes: Vec<_> = match scenes {
+        [] => known.iter().map(|&name| name.to_owned()).collect(),
+        chosen => chosen.to_vec(),
+    };
+    let errors = scenes.into_iter().map(|spec| Planned {
+        purpose: Purpose::Error,
+        spec,
+        settings: errors.clone(),
+    });
+    let growth = ["scattered", "tornado"].into_iter().flat_map(|family| {
+        let presets = &presets;
+        counts.iter().map(move |count| Planned {
+            purpose: Purpose::Growth(family.to_owned()),
+            spec: format!("{family}:{count}"),
+            settings: presets.clone(),
+        })
+    });
+    let density = densities.iter().map(|density| Planned {
+        purpose: Purpose::Density,
+        spec: format!("scattered:{count}:{density}"),
+        settings: presets.clone(),
+    });
+    errors.chain(growth).chain(density).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::{Overrides, load};
+
+    use super::*;
+
+    #[test]
+    fn every_planned_scene_loads_and_comes_once() {
+        for extent in [Extent::Whole, Extent::Quick] {
+            let plan = plan(extent, &[]);
+            for planned in &plan {
+                let same = |other: &&Planned| {
+                    (&other.spec, &other.purpose) == (&planned.spec, &planned.purpose)
+                };
+                assert_eq!(plan.iter().filter(same).count(), 1, "{}", planned.spec);
+                assert!(!planned.settings.is_empty());
+                if extent == Extent::Quick {
+                    load(&planned.spec, &Overrides::default()).expect("loads");
+                }
+            }
+        }
+        let chosen = plan(Extent::Quick, &["two-far".to_owned()]);
+        assert_eq!((chosen[0].spec.as_str(), &chosen[0].purpose), ("two-far", &Purpose::Error));
+    }
+}

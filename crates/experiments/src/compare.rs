@@ -1,0 +1,143 @@
+//! The command `compare`: scenes times methods, held against the reference, on one page.
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use bench_scenes::{Overrides, load};
+use metaball_core::gpu::{AdapterChoice, Gpu};
+
+use crate::conclusions::conclusions;
+use crate::console::{self, ProgressBar, table};
+use crate::report::write_report;
+use harness::contest::{Contest, Rules, hold, steps};
+use harness::machine::Provenance;
+use harness::numbers::{decimal, grouped, small};
+use harness::record::{Record, Records, SCHEMA, Status};
+
+/// The telling few: the real molecule first, then the smallest case with a blend, a sparse and a
+/// layered crowd, and a real fluid.
+pub const DEFAULT_SCENES: &[&str] =
+    &["molecule", "two-merging", "scattered-30k", "tornado-4k", "dam-break"];
+
+/// What to compare.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Names, generators or files.
+    pub scenes: Vec<String>,
+    /// What to change about every scene.
+    pub overrides: Overrides,
+    /// How.
+    pub rules: Rules,
+    /// What to draw with.
+    pub adapter: AdapterChoice,
+    /// Folder for `index.html` and `records.json`.
+    pub out: PathBuf,
+}
+
+/// Compares, prints a table, writes the page and the records. A scene that does not load or a method
+/// that does not build is told and left out.
+///
+/// # Errors
+/// Without an adapter, when a file cannot be written, or when nothing worked at all.
+pub fn compare(comparison: &Comparison) -> anyhow::Result<()> {
+    let gpu = Gpu::new(&comparison.adapter)?;
+    console::note(&gpu.report().to_string());
+
+    let mut contests = Vec::new();
+    let mut remarks = Vec::new();
+    if gpu.report().is_software() {
+        remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
+    }
+    let progress = ProgressBar::new(steps(&comparison.rules) * comparison.scenes.len() as u64);
+    for (index, spec) in comparison.scenes.iter().enumerate() {
+        progress.stage(format!("{spec}: loading"));
+        let contest = load(spec, &comparison.overrides)
+            .map_err(anyhow::Error::from)
+            .and_then(|bench| hold(&gpu, &bench, &comparison.rules, &progress))
+            .with_context(|| format!("scene {spec}"));
+        match contest {
+            Ok(contest) => contests.push(contest),
+            Err(error) => {
+                let remark = format!("{error:#}");
+                progress.note(&remark);
+                remarks.push(remark);
+            }
+        }
+        progress.reach(steps(&comparison.rules) * (index as u64 + 1));
+    }
+    drop(progress);
+
+    let records = Records {
+        provenance: Provenance::here(SCHEMA),
+        records: contests.iter().flat_map(|contest| contest.records.clone()).collect(),
+    };
+    let worked = records.records.iter().any(|record| record.status == Status::Ok);
+    if worked {
+        console::line(&results(&records.records));
+        let scenes: Vec<_> = contests.iter().map(|contest| contest.records.as_slice()).collect();
+        for sentence in conclusions(&scenes) {
+            console::line(&format!("\n{sentence}"));
+        }
+    }
+    for contest in &contests {
+        tell(contest);
+    }
+    let page = comparison.out.join("index.html");
+    records.write(&comparison.out.join("records.json"))?;
+    write_report(&page, &records, &contests, &remarks)?;
+    console::line(&format!("\n{}", page.display()));
+    anyhow::ensure!(worked, "nothing could be compared; the reasons stand above");
+    Ok(())
+}
+
+/// The table of all records that have a result.
+fn results(records: &[Record]) -> String {
+    let headings = [
+        "scene",
+        "balls",
+        "method",
+        "frame ms",
+        "build ms",
+        "missed",
+        "phantom",
+        "front",
+        "too close",
+        "rms Δt/t",
+        "|Δt|/R 99 %",
+        "nodes/ray",
+        "balls/ray",
+    ];
+    let row = |record: &Record| {
+        let measured = record.measured.as_ref()?;
+        let accuracy = &measured.accuracy;
+        let dash = || "–".to_owned();
+        Some(vec![
+            record.scene.clone(),
+            grouped(record.balls),
+            record.method.clone(),
+            decimal(measured.frame_ms.median),
+            decimal(measured.build_ms),
+            accuracy.false_negative.to_string(),
+            accuracy.false_positive.to_string(),
+            accuracy.wrong_front.to_string(),
+            accuracy.ambiguous.to_string(),
+            accuracy.rel_rms_t.map_or_else(dash, small),
+            accuracy.t_error_over_radius.map_or_else(dash, |error| small(error.p99)),
+            measured.work.map_or_else(dash, |work| decimal(work.nodes_per_ray)),
+            measured.work.map_or_else(dash, |work| decimal(work.balls_per_ray)),
+        ])
+    };
+    table(&headings, &records.iter().filter_map(row).collect::<Vec<_>>())
+}
+
+/// Says what the table leaves out.
+fn tell(contest: &Contest) {
+    for record in &contest.records {
+        if let Some(reason) = &record.reason {
+            console::note(&format!("{}, {}: {reason}", record.scene, record.method));
+        }
+    }
+    for remark in &contest.remarks {
+        console::note(&format!("{}: {remark}", contest.scene));
+    }
+}

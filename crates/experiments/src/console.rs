@@ -1,0 +1,150 @@
+//! What is said to the person at the terminal: results on standard output, the rest on standard
+//! error.
+
+use std::cell::Cell;
+use std::io::{IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+use harness::progress::Progress;
+use indicatif::{HumanDuration, ProgressStyle};
+
+/// One line of results. A reader who has seen enough and closed the pipe is no error.
+pub fn line(text: &str) {
+    let _ = writeln!(std::io::stdout().lock(), "{text}");
+}
+
+/// One line about how things went, on standard error.
+pub fn note(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// A bar that counts steps of known number; where nobody watches, one line for each stage.
+pub struct ProgressBar {
+    bar: indicatif::ProgressBar,
+    watched: bool,
+    start: Instant,
+    /// Steps that were done before.
+    skipped: Cell<u64>,
+}
+
+impl ProgressBar {
+    /// A bar of so many steps.
+    pub fn new(steps: u64) -> Self {
+        let bar = indicatif::ProgressBar::new(steps);
+        let template = "{elapsed_precise} {wide_bar:.cyan} {pos}/{len}  {msg:60!}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        let watched = std::io::stderr().is_terminal();
+        if watched {
+            bar.enable_steady_tick(Duration::from_millis(200));
+        }
+        Self { bar, watched, start: Instant::now(), skipped: Cell::new(0) }
+    }
+
+    /// Says what begins now, and how long all is likely to take yet.
+    pub fn stage(&self, text: String) {
+        let text = match self.left() {
+            Some(left) => format!("{text} ({} left)", HumanDuration(left)),
+            None => text,
+        };
+        if self.watched {
+            self.bar.set_message(text);
+        } else {
+            note(&text);
+        }
+    }
+
+    /// So many steps are done.
+    pub fn advance(&self, steps: u64) {
+        self.bar.inc(steps);
+    }
+
+    /// At the pace of all steps so far: that of the last few says little where steps differ as methods
+    /// do. `None` before the first.
+    fn left(&self) -> Option<Duration> {
+        let done = self.bar.position().saturating_sub(self.skipped.get());
+        let left = self.bar.length()?.saturating_sub(self.bar.position());
+        (done > 0).then(|| self.start.elapsed().mul_f64(left as f64 / done as f64))
+    }
+
+    /// So many steps are done in all.
+    pub fn reach(&self, steps: u64) {
+        self.bar.set_position(steps);
+    }
+
+    /// So many steps in all were done by an earlier run, in no time.
+    pub fn skip(&self, steps: u64) {
+        self.skipped.set(self.skipped.get() + steps.saturating_sub(self.bar.position()));
+        self.bar.set_position(steps);
+    }
+
+    /// A line that stays, above the bar.
+    pub fn note(&self, text: &str) {
+        self.bar.suspend(|| note(text));
+    }
+}
+
+impl Progress for ProgressBar {
+    fn stage(&self, text: String) {
+        self.stage(text);
+    }
+
+    fn advance(&self, steps: u64) {
+        self.advance(steps);
+    }
+}
+
+impl Drop for ProgressBar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// Columns under their headings, the first column flush left, all others flush right.
+pub fn table(headings: &[&str], rows: &[Vec<String>]) -> String {
+    let width = |column: usize| {
+        rows.iter()
+            .filter_map(|row| row.get(column))
+            .map(|cell| cell.chars().count())
+            .chain([headings[column].chars().count()])
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<_> = (0..headings.len()).map(width).collect();
+    let render = |cells: Vec<&str>| {
+        let cells = cells.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| {
+            if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+        });
+        cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    let mut lines = vec![render(headings.to_vec())];
+    lines.extend(rows.iter().map(|row| render(row.iter().map(String::as_str).collect())));
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_earlier_run_did_says_nothing_of_the_pace() {
+        let progress = ProgressBar::new(10);
+        assert_eq!(progress.left(), None);
+        progress.skip(6);
+        assert_eq!(progress.left(), None);
+        progress.reach(8);
+        let (left, after) =
+            (progress.left().expect("two steps are done"), progress.start.elapsed());
+        assert!(left <= after, "{left:?} for two steps like those that took {after:?}");
+    }
+
+    #[test]
+    fn tables_line_up() {
+        let text = table(
+            &["scene", "ms"],
+            &[vec!["molecule".into(), "1.5".into()], vec!["é".into(), "12.5".into()]],
+        );
+        assert_eq!(text, "scene       ms\nmolecule   1.5\né         12.5");
+    }
+}

@@ -1,0 +1,221 @@
+//! What is expected of every method at every value: the only table of stated limits.
+//!
+//! Whatever is not listed is expected to be right. A published method is listed where its paper says
+//! that it fails, and the expectation fails when it no longer does; a robust or certified one where
+//! its limit is, and there it must say so. *Broken* is a known defect: it stands here so that nobody
+//! forgets it, and so that the test fails when it is mended.
+
+use bench_scenes::Case;
+
+use super::cell::Outcome;
+use super::cell::Outcome::{Broken, Coarse, Lost, Right, Told};
+
+/// From a value on, in the order of the case's values, this is what becomes of a method.
+type From = (f64, Outcome);
+
+/// A method's limit in a case.
+type Limit = (&'static str, &'static [From]);
+
+/// The limits of `illes`, and of `illes-compute`, which casts the same cubics.
+///
+/// Section 3: a cubic for the kernel, which is as far off at easy values as at hard ones: whether a ray is
+/// lost depends on where it passes. Section 6: an array of 96 separators, three a ball.
+const CUBICS: &[Limit] = &[
+    ("coincident", &[(33.0, Told)]),
+    ("crowd", &[(33.0, Told)]),
+    ("concentric", &[(65.0, Told)]),
+    ("common-entry", &[(2.0, Lost), (13.0, Right), (33.0, Told)]),
+    ("distance", &[(10.0, Lost), (30.0, Right), (1e6, Lost)]),
+    ("radius-ratio", &[(10.0, Lost)]),
+    ("background", &[(10.0, Lost), (100.0, Right)]),
+    ("strength", &[(1.0, Lost), (10.0, Right)]),
+    ("exponent", &[(1.0, Lost)]),
+    ("neck", &[(0.1, Lost), (-0.1, Right), (1e-3, Lost)]),
+    ("sheet", &[(0.1, Lost)]),
+    ("effective-radii", &[(0.8, Lost), (1.0, Right), (1.5, Lost)]),
+    ("wide-lens", &[(38.0, Lost), (120.0, Right), (150.0, Lost), (170.0, Right)]),
+    ("narrow-lens", &[(38.0, Lost), (1.0, Right)]),
+    ("nudged", &[(0.5, Lost)]),
+    ("image", &[(2.0, Lost)]),
+    ("redrawn", &[(20.0, Lost)]),
+    ("shuffled", &[(20.0, Lost)]),
+];
+
+/// The limits of each entrant, by case. An outcome goes on to the end of the case's values or to the
+/// next outcome; what is not listed is right. Measured on a software adapter.
+const LIMITS: &[(&str, &[Limit])] = &[
+    // Section 7: points that coincide are lost, and more balls than a list of 14 holds are drawn as
+    // supports (section 4.2).
+    (
+        "kanamori",
+        &[
+            ("coincident", &[(2.0, Lost)]),
+            ("crowd", &[(15.0, Told)]),
+            ("concentric", &[(65.0, Told)]),
+            ("common-entry", &[(2.0, Lost)]),
+            ("distance", &[(1e4, Coarse), (1e6, Broken)]),
+        ],
+    ),
+    // The same: a finer clipping does not help, nor against an f32 distance from 10⁶ radii away.
+    (
+        "kanamori+fine",
+        &[
+            ("coincident", &[(2.0, Lost)]),
+            ("crowd", &[(15.0, Told)]),
+            ("concentric", &[(65.0, Told)]),
+            ("common-entry", &[(2.0, Lost)]),
+            ("distance", &[(1e4, Coarse), (1e6, Broken)]),
+        ],
+    ),
+    // Undecided where it says so: an f32 field this close to T.
+    (
+        "kanamori-robust",
+        &[
+            ("distance", &[(1e5, Coarse)]),
+            ("threshold-near-zero", &[(1e-12, Told)]),
+            ("grazing", &[(1e-2, Told), (1e-3, Right), (1e-5, Told), (1e-6, Right)]),
+        ],
+    ),
+    // Section 3: a surface into which no centre projects is missed. Broken: distances of 10⁶ radii, radii 10⁶
+    // apart, strengths of 10⁶ T, T below 10⁻⁵, where a secant search in f32 is suspected and not looked into.
+    (
+        "bvh",
+        &[
+            ("distance", &[(10.0, Lost), (30.0, Right), (1e4, Coarse), (1e6, Broken)]),
+            ("radius-ratio", &[(10.0, Lost), (1e3, Right), (1e6, Broken)]),
+            ("strength", &[(1.0, Lost), (10.0, Right), (1e6, Broken)]),
+            ("exponent", &[(1.0, Lost), (4.0, Right)]),
+            ("threshold-near-zero", &[(0.1, Lost), (1e-2, Right), (1e-6, Broken)]),
+            ("threshold-near-maximum", &[(1e-5, Coarse), (1e-6, Right)]),
+            ("neck", &[(0.1, Lost), (-0.1, Right), (1e-3, Lost)]),
+            ("sheet", &[(-0.1, Lost)]),
+            ("effective-radii", &[(2.5, Lost), (3.0, Right)]),
+            ("nudged", &[(0.25, Lost), (1e-2, Right)]),
+        ],
+    ),
+    // The same.
+    (
+        "fbvh",
+        &[
+            ("distance", &[(10.0, Lost), (30.0, Right), (1e4, Coarse), (1e6, Broken)]),
+            ("radius-ratio", &[(10.0, Lost), (1e3, Right), (1e6, Broken)]),
+            ("strength", &[(1.0, Lost), (10.0, Right), (1e6, Broken)]),
+            ("exponent", &[(1.0, Lost), (4.0, Right)]),
+            ("threshold-near-zero", &[(0.1, Lost), (1e-2, Right), (1e-8, Broken), (1e-12, Right)]),
+            ("neck", &[(0.1, Lost), (-0.1, Right), (1e-3, Lost)]),
+            ("sheet", &[(-0.1, Lost)]),
+            ("effective-radii", &[(2.5, Lost), (3.0, Right)]),
+        ],
+    ),
+    // An f32 distance from afar; at T = 10⁻¹² the surface is where v is 10⁻⁶, a few roundings of 1.
+    (
+        "fbvh-certified",
+        &[("distance", &[(1e5, Coarse)]), ("threshold-near-zero", &[(1e-12, Told)])],
+    ),
+    ("illes", CUBICS),
+    // Section 4: a running sum that loses its digits away from the eye.
+    (
+        "illes-absolute",
+        &[
+            ("few", &[(1.0, Lost), (0.0, Right)]),
+            ("coincident", &[(33.0, Told)]),
+            ("crowd", &[(33.0, Told)]),
+            ("concentric", &[(65.0, Told)]),
+            ("common-entry", &[(2.0, Lost), (13.0, Right), (33.0, Told)]),
+            ("veiled", &[(13.0, Lost), (14.0, Right), (65.0, Lost)]),
+            ("distance", &[(10.0, Lost), (30.0, Right), (100.0, Lost), (1e4, Broken)]),
+            ("radius-ratio", &[(10.0, Lost)]),
+            ("background", &[(10.0, Lost), (100.0, Right), (1e3, Broken)]),
+            ("strength", &[(1.0, Lost), (10.0, Right)]),
+            ("exponent", &[(1.0, Lost)]),
+            ("threshold-near-maximum", &[(1e-5, Lost), (1e-6, Right)]),
+            ("grazing", &[(1e-2, Lost), (1e-3, Right), (1e-5, Lost), (1e-6, Right)]),
+            ("neck", &[(0.1, Lost), (-0.1, Right), (1e-3, Lost)]),
+            ("sheet", &[(0.1, Lost)]),
+            ("effective-radii", &[(0.8, Lost), (1.0, Right), (1.25, Lost)]),
+            ("wide-lens", &[(38.0, Lost), (120.0, Right), (150.0, Lost), (170.0, Right)]),
+            ("narrow-lens", &[(38.0, Lost), (1.0, Right)]),
+            ("nudged", &[(0.5, Lost)]),
+            ("image", &[(2.0, Lost)]),
+            ("redrawn", &[(20.0, Lost)]),
+            ("shuffled", &[(20.0, Lost)]),
+        ],
+    ),
+    // Degree six at most, and the same array; an f32 distance from afar.
+    (
+        "illes-exact",
+        &[
+            ("coincident", &[(33.0, Told)]),
+            ("crowd", &[(33.0, Told)]),
+            ("concentric", &[(65.0, Told)]),
+            ("common-entry", &[(33.0, Told)]),
+            ("distance", &[(3e4, Coarse), (1e6, Broken)]),
+            ("exponent", &[(4.0, Told)]),
+        ],
+    ),
+    // An array for ten balls.
+    (
+        "illes-exact+30",
+        &[
+            ("coincident", &[(13.0, Told)]),
+            ("crowd", &[(13.0, Told)]),
+            ("concentric", &[(29.0, Told)]),
+            ("common-entry", &[(13.0, Told)]),
+            ("distance", &[(3e4, Coarse), (1e6, Broken)]),
+            ("exponent", &[(4.0, Told)]),
+            ("effective-radii", &[(3.0, Told)]),
+            ("redrawn", &[(1000.0, Told)]),
+            ("shuffled", &[(1000.0, Told)]),
+        ],
+    ),
+    // Degree six at most; from 10⁶ radii away, an f32 distance is no better than a wrong front.
+    (
+        "illes-robust",
+        &[("distance", &[(3e4, Coarse), (1e6, Broken)]), ("exponent", &[(4.0, Told)])],
+    ),
+    ("illes-compute", CUBICS),
+];
+
+/// What is expected of an entrant at one of the case's values.
+pub fn expected(method: &str, case: &Case, value: f64) -> Outcome {
+    let place = |value: f64| case.values.iter().position(|&known| known == value);
+    let of_method = LIMITS.iter().filter(|(name, _)| *name == method);
+    let mut of_case =
+        of_method.flat_map(|(_, limits)| *limits).filter(|(name, _)| *name == case.name);
+    let steps = of_case.next().map_or(&[][..], |(_, steps)| *steps);
+    let mut reached = steps.iter().filter(|(from, _)| place(*from) <= place(value));
+    reached.next_back().map_or(Right, |(_, outcome)| *outcome)
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::cases;
+
+    use super::*;
+    use harness::settings::variants::entrants;
+
+    #[test]
+    fn every_limit_is_of_an_entrant_and_at_values_of_a_case() {
+        for (method, limits) in LIMITS {
+            assert!(entrants().iter().any(|entrant| entrant.name == *method), "{method}");
+            for (name, steps) in *limits {
+                let case = cases().iter().find(|case| case.name == *name);
+                let values = case.unwrap_or_else(|| panic!("{method}: no case {name}")).values;
+                let places: Vec<_> = steps
+                    .iter()
+                    .map(|(value, _)| values.iter().position(|known| known == value))
+                    .collect();
+                assert!(places.iter().all(Option::is_some), "{method}, {name}: {steps:?}");
+                assert!(places.is_sorted(), "{method}, {name}: {steps:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_outcome_lasts_until_the_next() {
+        let case = cases().iter().find(|case| case.name == "crowd").expect("known");
+        let at = |value| expected("kanamori", case, value);
+        assert_eq!([at(14.0), at(15.0), at(140.0)], [Right, Told, Told]);
+        assert_eq!(expected("no such entrant", case, 4096.0), Right);
+    }
+}

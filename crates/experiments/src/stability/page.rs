@@ -1,0 +1,319 @@
+//! `index.html` of stability: the matrix, and every number behind it.
+
+use std::fmt::Write;
+
+use bench_scenes::Case;
+
+use super::cell::{Cell, Outcome};
+use super::patience::PATIENCE_S;
+use super::record::{Limit, Stability};
+use crate::html::escape;
+use crate::page::{self, remark_paragraphs, run_facts};
+use harness::numbers::small;
+use harness::settings::Setting;
+
+/// The page; needs no other file and no network.
+pub(super) fn page(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
+    let sections: String = cases.iter().map(|case| section(stability, case, entrants)).collect();
+    let parts = [
+        ("facts", run_facts(&stability.provenance, Some(&stability.adapter))),
+        ("remarks", remark_paragraphs(&remarks(stability))),
+        ("legend", legend()),
+        ("matrix", matrix(stability, cases, entrants)),
+        ("cases", sections),
+        ("notes", notes(stability)),
+    ];
+    page::page("Where metaball ray casters fail", include_str!("page.html"), &parts)
+}
+
+/// How the outcomes stand to the table of stated limits.
+fn remarks(stability: &Stability) -> Vec<String> {
+    let unexpected: usize = stability.limits.iter().map(|limit| limit.unexpected.len()).sum();
+    let mut remarks = Vec::new();
+    if unexpected > 0 {
+        remarks.push(format!(
+            "{unexpected} of {} outcomes are not what the table of stated limits says; they are \
+             underlined in the matrix.",
+            stability.tried()
+        ));
+    }
+    if stability.of_outcome(Outcome::Untried).next().is_some() {
+        remarks.push(format!(
+            "A published method that took more than {PATIENCE_S} s at one value of a case is not run \
+             at the harder ones: nothing is known there. Methods that promise to be right everywhere \
+             always are."
+        ));
+    }
+    remarks
+}
+
+/// What each outcome means.
+fn meaning(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Right => "every clear ray right, 99 of 100 hits within the method's tolerance",
+        Outcome::Coarse => "every clear ray on the right front, but hits beyond the tolerance",
+        Outcome::Untried => {
+            "not run, since the method took too long at an easier value: nothing is known"
+        }
+        Outcome::Told => {
+            "not every ray has its own answer, and the method says so: marked pixels, \
+                          or a refusal with its reason"
+        }
+        Outcome::Lost => "rays wrong and not marked, where the method's paper promises nothing",
+        Outcome::Broken => "rays wrong and not marked, where the method promises to be right",
+    }
+}
+
+fn legend() -> String {
+    let item = |outcome: Outcome| {
+        format!(
+            "<li>{}<b>{}</b>: {}</li>\n",
+            strip([(outcome, String::new(), false)]),
+            outcome.word(),
+            meaning(outcome)
+        )
+    };
+    let items: String = Outcome::ALL.into_iter().map(item).collect();
+    format!("<ul class=\"key-list\">\n{items}</ul>\n")
+}
+
+fn matrix(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
+    let mut rows = String::new();
+    let mut subject = None;
+    for case in cases {
+        if subject != Some(case.subject) {
+            subject = Some(case.subject);
+            let columns = entrants.len() + 1;
+            let title = case.subject.title();
+            let _ =
+                writeln!(rows, "<tr><th class=\"subject\" colspan=\"{columns}\">{title}</th></tr>");
+        }
+        let cells: String =
+            entrants.iter().map(|entrant| limit_cell(stability, case, entrant)).collect();
+        let (name, parameter) = (case.name, escape(case.parameter));
+        let _ = writeln!(
+            rows,
+            "<tr><th><a href=\"#{name}\">{name}</a><small>{parameter}</small></th>{cells}</tr>"
+        );
+    }
+    let counts: String = entrants.iter().map(|entrant| held(stability, entrant)).collect();
+    format!(
+        "<div class=\"scroll\"><table class=\"matrix\">\n<thead><tr><th>Case</th>{}</tr></thead>\n\
+         <tbody>\n{rows}</tbody>\n<tfoot><tr><th>right at all values</th>{counts}</tr></tfoot>\n\
+         </table></div>\n",
+        headings(entrants)
+    )
+}
+
+fn headings(entrants: &[Setting]) -> String {
+    let heading = |entrant: &Setting| {
+        let class = if entrant.name.contains('+') { " class=\"option\"" } else { "" };
+        format!("<th{class} title=\"{}\">{}</th>", entrant.name, escape(&entrant.title))
+    };
+    entrants.iter().map(heading).collect()
+}
+
+/// In how many cases a method is right throughout.
+fn held(stability: &Stability, entrant: &Setting) -> String {
+    let of = stability.limits.iter().filter(|limit| limit.method == entrant.name);
+    let held = of.clone().filter(|limit| limit.fails_at.is_none()).count();
+    format!("<td>{held} of {}</td>", of.count())
+}
+
+fn limit_cell(stability: &Stability, case: &Case, entrant: &Setting) -> String {
+    let Some(limit) = stability.limit(case.name, &entrant.name) else {
+        return "<td></td>".to_owned();
+    };
+    let squares = stability.of(case.name, &entrant.name).map(|cell| {
+        let is_unexpected = limit.unexpected.contains(&cell.value);
+        (cell.outcome, title(cell), is_unexpected)
+    });
+    let (class, text) = from(limit);
+    format!("<td class=\"{class}\">{text}{}</td>", strip(squares))
+}
+
+/// The first value that is not right.
+fn from(limit: &Limit) -> (&'static str, String) {
+    limit.fails_at.map_or_else(|| ("all", "all".to_owned()), |value| ("from", tick(value)))
+}
+
+/// Width and height of a square, and its distance from the next.
+const SQUARE: (f64, f64, f64) = (7.0, 11.0, 8.5);
+
+/// Squares from left to right, told apart by lightness and by sign. Where one is underlined it is not
+/// what was stated.
+fn strip(squares: impl IntoIterator<Item = (Outcome, String, bool)>) -> String {
+    let (width, height, step) = SQUARE;
+    let (mut shapes, mut x) = (String::new(), 0.5);
+    for (outcome, title, is_unexpected) in squares {
+        let _ = write!(
+            shapes,
+            "<g><title>{}</title><rect x=\"{x}\" y=\".5\" width=\"{width}\" height=\"{height}\" \
+             fill=\"{}\" stroke=\"#57606a\" stroke-width=\".5\"/>{}",
+            escape(&title),
+            fill_of(outcome),
+            sign(outcome, x)
+        );
+        if is_unexpected {
+            let _ = write!(
+                shapes,
+                "<path d=\"M{x} 14h{width}\" stroke=\"#1b1f24\" stroke-width=\"2\"/>"
+            );
+        }
+        shapes += "</g>";
+        x += step;
+    }
+    format!(
+        "<svg class=\"strip\" width=\"{x}\" height=\"15\" viewBox=\"0 0 {x} 15\" role=\"img\" \
+         fill=\"none\">{shapes}</svg>"
+    )
+}
+
+/// Light to dark as outcomes go from good to bad, so that grey prints keep the order; blue, yellow
+/// and vermilion are those of Okabe and Ito's palette for all kinds of colour vision.
+fn fill_of(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Right => "#e3eff8",
+        Outcome::Coarse => "#9cc4e4",
+        Outcome::Untried => "#ffffff",
+        Outcome::Told => "#f5d76e",
+        Outcome::Lost => "#d55e00",
+        Outcome::Broken => "#33102f",
+    }
+}
+
+/// What tells an outcome where there is no colour at all.
+fn sign(outcome: Outcome, x: f64) -> String {
+    let (path, stroke) = match outcome {
+        Outcome::Right => return String::new(),
+        Outcome::Coarse => (format!("M{} 6h4", x + 1.5), "#08306b"),
+        Outcome::Untried => {
+            (format!("M{} 4h1M{} 6h1M{} 8h1", x + 3.0, x + 3.0, x + 3.0), "#57606a")
+        }
+        Outcome::Told => (format!("M{} 9.5L{} 2.5", x + 1.0, x + 6.0), "#6b5500"),
+        Outcome::Lost => (format!("M{} 6h3", x + 2.0), "#fff"),
+        Outcome::Broken => (format!("M{x} 3l5 6M{x} 9l5 -6", x = x + 1.0), "#fff"),
+    };
+    let width = if outcome == Outcome::Lost { 3.0 } else { 1.2 };
+    format!("<path d=\"{path}\" stroke=\"{stroke}\" stroke-width=\"{width}\"/>")
+}
+
+/// A cell in words.
+fn title(cell: &Cell) -> String {
+    let mut text = format!("{}: {}", tick(cell.value), cell.outcome.word());
+    if let Some(note) = &cell.note {
+        let _ = write!(text, ": {note}");
+    }
+    text
+}
+
+/// A case with every number.
+fn section(stability: &Stability, case: &Case, entrants: &[Setting]) -> String {
+    let Some(first) = entrants.first() else { return String::new() };
+    let row = |of_first: &Cell| {
+        let cells: String = entrants
+            .iter()
+            .map(|entrant| {
+                let mut of_entrant = stability.of(case.name, &entrant.name);
+                of_entrant
+                    .find(|cell| cell.value == of_first.value)
+                    .map_or_else(|| "<td></td>".to_owned(), value_cell)
+            })
+            .collect();
+        // A method that refuses has judged no ray.
+        let judged = stability.cells.iter().find(|cell| {
+            cell.case == case.name
+                && cell.value == of_first.value
+                && cell.clear + cell.ambiguous > 0
+        });
+        let rays =
+            judged.map_or_else(String::new, |cell| format!("{} + {}", cell.clear, cell.ambiguous));
+        format!("<tr><th>{}</th><td>{rays}</td>{cells}</tr>\n", tick(of_first.value))
+    };
+    let rows: String = stability.of(case.name, &first.name).map(row).collect();
+    let (name, about, parameter) = (case.name, escape(case.about), escape(case.parameter));
+    format!(
+        "<section class=\"case\" id=\"{name}\"><h3><code>{name}</code></h3>\n<p>{about} Turned: \
+         {parameter}.</p>\n<div class=\"scroll\"><table class=\"values\">\n<thead><tr><th>Value</th>\
+         <th>Rays<small>clear + too close</small></th>{}</tr></thead>\n<tbody>\n{rows}</tbody>\n\
+         </table></div></section>\n",
+        headings(entrants)
+    )
+}
+
+fn value_cell(cell: &Cell) -> String {
+    let mut parts = Vec::new();
+    for (count, word) in [(cell.broken, "broken"), (cell.lost, "lost"), (cell.told, "told")] {
+        if count > 0 {
+            parts.push(format!("{count} {word}"));
+        }
+    }
+    if let Some(differing) = cell.differing {
+        parts.push(format!("{differing} differ"));
+    }
+    if is_refusal(cell) {
+        parts.push("refused".to_owned());
+    } else if parts.is_empty() {
+        parts.push(cell.outcome.word().to_owned());
+    }
+    let error = cell.error.map_or_else(String::new, |error| small(error.p99));
+    let (class, title) = (cell.outcome.word(), escape(&title(cell)));
+    format!(
+        "<td class=\"{class}\" title=\"{title}\">{}<small>{error}</small></td>",
+        parts.join("<br>")
+    )
+}
+
+/// Whether a method was run and drew nothing.
+fn is_refusal(cell: &Cell) -> bool {
+    cell.outcome == Outcome::Told && cell.clear + cell.ambiguous == 0
+}
+
+/// The reasons of refusals, and of what was not run, each once.
+fn notes(stability: &Stability) -> String {
+    let list = |title: &str, cells: &mut dyn Iterator<Item = &Cell>, who: fn(&Cell) -> String| {
+        let mut reasons: Vec<_> = cells
+            .filter_map(|cell| Some(format!("{}: {}", who(cell), cell.note.as_ref()?)))
+            .collect();
+        reasons.dedup();
+        let items: String =
+            reasons.iter().map(|reason| format!("<li>{}</li>\n", escape(reason))).collect();
+        if items.is_empty() { items } else { format!("<h2>{title}</h2>\n<ul>\n{items}</ul>\n") }
+    };
+    let mut refused = stability.cells.iter().filter(|cell| is_refusal(cell));
+    let mut untried = stability.of_outcome(Outcome::Untried);
+    let place = |cell: &Cell| format!("{} = {}, {}", cell.case, tick(cell.value), cell.method);
+    list("Refusals", &mut refused, |cell| cell.case.clone()) + &list("Not run", &mut untried, place)
+}
+
+/// A value as an axis would show it.
+pub(super) fn tick(value: f64) -> String {
+    let size = value.abs();
+    let sign = if value < 0.0 { "\u{2212}" } else { "" };
+    if size == 0.0 || (1e-2..1e4).contains(&size) {
+        return format!("{sign}{size}");
+    }
+    let text = format!("{size:e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let factor = if digits == "1" { String::new() } else { format!("{digits}·") };
+    let raise = |digit: char| match digit {
+        '-' => '⁻',
+        '0'..='9' => {
+            ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize - '0' as usize]
+        }
+        other => other,
+    };
+    format!("{sign}{factor}10{}", exponent.chars().map(raise).collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_short() {
+        assert_eq!([0.0, 14.0, -0.1, 0.01].map(tick), ["0", "14", "\u{2212}0.1", "0.01"]);
+        assert_eq!(tick(1e6), "10⁶");
+        assert_eq!(tick(-3e-5), "\u{2212}3·10⁻⁵");
+    }
+}

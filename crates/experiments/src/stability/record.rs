@@ -1,0 +1,179 @@
+//! `records.json` of stability: every cell, and the limits that follow from them.
+
+use std::fs;
+use std::path::Path;
+
+use bench_scenes::Case;
+use serde::{Deserialize, Serialize};
+
+use super::cell::{Cell, Outcome};
+use super::limits::expected;
+use harness::machine::Provenance;
+use harness::output::write_json_lines;
+use harness::record::Adapter;
+
+/// Name and version of the format of [`Stability`].
+pub const SCHEMA: &str = "metaball-stability/2";
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stability {
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
+    /// What drew.
+    pub adapter: Adapter,
+    /// Where each method's limits are, by case and method.
+    pub limits: Vec<Limit>,
+    /// Everything that was tried.
+    pub cells: Vec<Cell>,
+}
+
+/// Where a method leaves its tolerance in a case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Limit {
+    /// Name of the case.
+    pub case: String,
+    /// What its number means.
+    pub parameter: String,
+    /// Name of the entrant.
+    pub method: String,
+    /// The last value up to which every one is right; `None`: not even the first is.
+    pub holds_to: Option<f64>,
+    /// The first value that is not right, as far as is known; `None`: all are.
+    pub fails_at: Option<f64>,
+    /// What becomes of the method there.
+    pub first: Outcome,
+    /// The worst that becomes of it at any value.
+    pub worst: Outcome,
+    /// Whether the method said so itself, at every value whose verdicts it gets wrong; `None` where
+    /// it gets none wrong.
+    pub says_so: Option<bool>,
+    /// The values at which it is not what the table of stated limits says.
+    pub unexpected: Vec<f64>,
+}
+
+impl Limit {
+    /// What the cells of a case and a method, in the order of values, come to; `None` of no cells.
+    pub fn of(case: &Case, cells: &[&Cell]) -> Option<Self> {
+        let first_cell = cells.first()?;
+        let fails = cells.iter().position(|cell| cell.outcome != Outcome::Right);
+        let worst = cells.iter().map(|cell| cell.outcome).max()?;
+        let holds =
+            fails.map_or(cells.last(), |index| index.checked_sub(1).map(|last| &cells[last]));
+        let is_unexpected = |cell: &&&Cell| {
+            cell.outcome != Outcome::Untried
+                && cell.outcome != expected(&cell.method, case, cell.value)
+        };
+        Some(Self {
+            case: case.name.to_owned(),
+            parameter: case.parameter.to_owned(),
+            method: first_cell.method.clone(),
+            holds_to: holds.map(|cell| cell.value),
+            fails_at: fails.map(|index| cells[index].value),
+            first: fails.map_or(Outcome::Right, |index| cells[index].outcome),
+            worst,
+            says_so: (worst >= Outcome::Told).then_some(worst == Outcome::Told),
+            unexpected: cells.iter().filter(is_unexpected).map(|cell| cell.value).collect(),
+        })
+    }
+}
+
+impl Stability {
+    /// Cells of a case and a method, in the order that they were tried.
+    pub fn of<'a>(&'a self, case: &'a str, method: &'a str) -> impl Iterator<Item = &'a Cell> {
+        self.cells.iter().filter(move |cell| cell.case == case && cell.method == method)
+    }
+
+    /// Cells in which this became of a method.
+    pub fn of_outcome(&self, outcome: Outcome) -> impl Iterator<Item = &Cell> {
+        self.cells.iter().filter(move |cell| cell.outcome == outcome)
+    }
+
+    /// How many cells were run.
+    pub fn tried(&self) -> usize {
+        self.cells.len() - self.of_outcome(Outcome::Untried).count()
+    }
+
+    /// The limit of a method in a case.
+    pub fn limit(&self, case: &str, method: &str) -> Option<&Limit> {
+        self.limits.iter().find(|limit| limit.case == case && limit.method == method)
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, path: &Path) -> anyhow::Result<()> {
+        write_json_lines(path, self)
+    }
+
+    /// Reads what an interrupted run has left, if it is of the same program, command and adapter.
+    pub fn unfinished(&self, path: &Path) -> Option<Vec<Cell>> {
+        let left: Self = serde_json::from_str(&fs::read_to_string(path).ok()?).ok()?;
+        let is_same = left.provenance == self.provenance && left.adapter == self.adapter;
+        is_same.then_some(left.cells)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::cases;
+
+    use super::*;
+
+    fn cell(value: f64, outcome: Outcome) -> Cell {
+        let refused = Cell::refused("distance", value, "fbvh-certified", "why".to_owned());
+        Cell { outcome, ..refused }
+    }
+
+    fn limit(outcomes: [Outcome; 3]) -> Limit {
+        let case = cases().iter().find(|case| case.name == "distance").expect("known");
+        let cells: Vec<_> = case
+            .values
+            .iter()
+            .zip(outcomes)
+            .map(|(&value, outcome)| cell(value, outcome))
+            .collect();
+        Limit::of(case, &cells.iter().collect::<Vec<_>>()).expect("cells")
+    }
+
+    #[test]
+    fn a_limit_is_where_the_first_value_fails() {
+        use Outcome::{Coarse, Lost, Right, Told, Untried};
+        let all = limit([Right; 3]);
+        assert_eq!((all.holds_to, all.fails_at, all.says_so), (Some(100.0), None, None));
+        let none = limit([Coarse, Right, Right]);
+        assert_eq!((none.holds_to, none.fails_at, none.says_so), (None, Some(10.0), None));
+        let told = limit([Right, Told, Coarse]);
+        assert_eq!(
+            (told.holds_to, told.fails_at, told.says_so),
+            (Some(10.0), Some(30.0), Some(true))
+        );
+        let lost = limit([Right, Told, Lost]);
+        assert_eq!((lost.first, lost.worst, lost.says_so), (Told, Lost, Some(false)));
+        // What was not run is neither right nor wrong, and nothing is expected of it.
+        let rested = limit([Right, Untried, Untried]);
+        assert_eq!((rested.first, rested.worst, rested.says_so), (Untried, Untried, None));
+        assert_eq!((rested.holds_to, rested.fails_at), (Some(10.0), Some(30.0)));
+        assert!(rested.unexpected.is_empty());
+    }
+
+    #[test]
+    fn only_the_same_command_goes_on() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("unfinished.json");
+        let run = Stability {
+            provenance: Provenance::here(SCHEMA),
+            adapter: Adapter { name: "a".into(), backend: "b".into(), driver: "d".into() },
+            limits: Vec::new(),
+            cells: vec![cell(10.0, Outcome::Right)],
+        };
+        assert_eq!(run.unfinished(&path), None);
+        run.write(&path).expect("written");
+        assert_eq!(run.unfinished(&path), Some(run.cells.clone()));
+        let provenance = Provenance { commit: "d".to_owned(), ..run.provenance.clone() };
+        let other = Stability { provenance, ..run };
+        assert_eq!(other.unfinished(&path), None);
+    }
+}

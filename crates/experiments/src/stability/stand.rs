@@ -1,0 +1,158 @@
+//! Where cases are tried: the device, and renderers that live on from scene to scene.
+
+use std::time::Instant;
+
+use bench_scenes::{Case, Drawing};
+use metaball_core::gpu::{Frame, Gpu, IsoRenderer, RenderError, Targets, render};
+use metaball_core::reference::Oracle;
+use metaball_core::{Hit, Scene, View};
+
+use super::cell::Cell;
+use harness::judge::{Exam, Terms};
+use harness::settings::Setting;
+
+/// Rays of a picture that are judged at most, spread evenly.
+const MOST_RAYS: usize = 900;
+
+/// Scenes of more balls leave renderers with more room than small scenes want: they are made anew.
+const ROOMY: usize = 100;
+
+/// Entrants with their renderers. Composing shaders takes longer than most of these pictures, so
+/// renderers live as long as they can.
+pub struct Stand<'a> {
+    gpu: &'a Gpu,
+    targets: Option<Targets>,
+    entrants: Vec<Entrant>,
+}
+
+/// A setting, what it is held to, and its renderer.
+struct Entrant {
+    setting: Setting,
+    terms: Terms,
+    renderer: Box<dyn IsoRenderer>,
+    /// Whether its shaders are composed and compiled, which is no part of what a value takes.
+    is_warm: bool,
+}
+
+impl<'a> Stand<'a> {
+    /// For settings that are held to what they promise. Nothing is made yet on the device.
+    pub fn new(gpu: &'a Gpu, settings: impl IntoIterator<Item = Setting>) -> Self {
+        let with_terms = |setting: Setting| {
+            let terms = Terms::of(&setting.technique);
+            (setting, terms)
+        };
+        Self::holding(gpu, settings.into_iter().map(with_terms))
+    }
+
+    /// For settings that are held to other terms than their own.
+    pub fn holding(gpu: &'a Gpu, settings: impl IntoIterator<Item = (Setting, Terms)>) -> Self {
+        let entrant = |(setting, terms): (Setting, Terms)| {
+            let renderer = setting.renderer(false);
+            Entrant { setting, terms, renderer, is_warm: false }
+        };
+        Self { gpu, targets: None, entrants: settings.into_iter().map(entrant).collect() }
+    }
+
+    /// Tries every entrant at a value of a case, each against the same truth; but one for which
+    /// `rests` has a reason is not run.
+    ///
+    /// # Errors
+    /// When the value makes no scene, or the device fails; what a method refuses is an outcome.
+    pub fn attempt(
+        &mut self,
+        case: &Case,
+        value: f64,
+        rests: impl Fn(&Setting) -> Option<String>,
+    ) -> anyhow::Result<Vec<Cell>> {
+        let (bench, view) = case.view(value)?;
+        let other = match case.drawing {
+            Drawing::Shuffled => bench.shuffled()?.scene,
+            Drawing::Once | Drawing::Twice => bench.scene.clone(),
+        };
+        let targets = match self.targets.take() {
+            Some(made) if (made.width(), made.height()) == (view.width(), view.height()) => made,
+            _ => Targets::new(self.gpu, view.width(), view.height(), false, false)?,
+        };
+        // A frame without a method makes the rays.
+        Frame::begin(self.gpu, &targets, &view)?.finish()?;
+        let pixels = judged_pixels(view.pixels());
+        let rays = pick(&targets.read_rays(self.gpu, &view)?, &pixels);
+        let oracle = Oracle::new(&bench.scene);
+        let exam = Exam::new(&bench.scene, &oracle, &rays);
+
+        let mut cells = Vec::new();
+        for Entrant { setting, terms, renderer, is_warm } in &mut self.entrants {
+            if let Some(reason) = rests(setting) {
+                cells.push(Cell::untried(case.name, value, &setting.name, reason));
+                continue;
+            }
+            let mut draw =
+                |scene: &Scene| draw(self.gpu, renderer.as_mut(), &targets, scene, &view);
+            if !*is_warm {
+                *is_warm = draw(&bench.scene).is_ok();
+            }
+            let start = Instant::now();
+            let drawn = draw(&bench.scene).and_then(|first| match case.drawing {
+                Drawing::Once => Ok((first, None)),
+                Drawing::Twice | Drawing::Shuffled => {
+                    let second = draw(&other)?;
+                    let differing = first.iter().zip(&second).filter(|(a, b)| a != b).count();
+                    Ok((second, Some(differing)))
+                }
+            });
+            let seconds = start.elapsed().as_secs_f64();
+            let place = (case.name, value);
+            let cell = match drawn {
+                Ok((hits, differing)) => {
+                    let picture = (&exam, pick(&hits, &pixels));
+                    let must_repeat = case.drawing == Drawing::Twice;
+                    let judged = (picture.0, &picture.1[..]);
+                    Cell::judged(place, (&setting.name, terms), judged, differing, must_repeat)
+                }
+                Err(error) if is_refusal(&error) => {
+                    Cell::refused(case.name, value, &setting.name, error.to_string())
+                }
+                Err(error) => return Err(error.into()),
+            };
+            cells.push(Cell { seconds, ..cell });
+            if bench.scene.len() > ROOMY {
+                *renderer = setting.renderer(false);
+            }
+        }
+        self.targets = Some(targets);
+        Ok(cells)
+    }
+}
+
+/// Whether a method said that it cannot, and why; anything else is a failure of the device or of us.
+fn is_refusal(error: &RenderError) -> bool {
+    matches!(
+        error,
+        RenderError::Unsupported { .. }
+            | RenderError::Structure { .. }
+            | RenderError::TooLarge { .. }
+            | RenderError::Incomplete { .. }
+    )
+}
+
+fn draw(
+    gpu: &Gpu,
+    renderer: &mut dyn IsoRenderer,
+    targets: &Targets,
+    scene: &Scene,
+    view: &View,
+) -> Result<Vec<Hit>, RenderError> {
+    renderer.build(gpu, scene)?;
+    render(gpu, renderer, targets, view)?;
+    targets.read_hits(gpu)
+}
+
+/// Rising indices of the pixels whose rays are judged.
+fn judged_pixels(pixels: usize) -> Vec<usize> {
+    let count = pixels.min(MOST_RAYS);
+    (0..count).map(|index| index * pixels / count).collect()
+}
+
+fn pick<T: Copy>(all: &[T], pixels: &[usize]) -> Vec<T> {
+    pixels.iter().map(|&pixel| all[pixel]).collect()
+}

@@ -1,0 +1,262 @@
+//! The command `tables peers`: the certified tree on the CPU against what a user would take instead,
+//! POV-Ray's `blob`, whose field is the power kernel's with α = 2.
+
+mod page;
+pub mod povray;
+pub mod run;
+
+use std::path::PathBuf;
+
+use metaball_core::Kernel;
+use serde::{Deserialize, Serialize};
+
+use self::povray::{INSTALL, Povray};
+use self::run::{Bout, Measured, Outcome, Traced};
+use crate::console::{self, ProgressBar};
+use crate::tables::{Extent, named_or};
+use harness::machine::Provenance;
+use harness::numbers::{decimal, grouped, small};
+use harness::output::write_json;
+use picture_files::write_atomically;
+
+/// Name and version of the format of `peers.json`.
+pub const SCHEMA: &str = "metaball-tables-peers/1";
+
+/// What to measure.
+#[derive(Debug, Clone)]
+pub struct Order {
+    /// What [`bench_scenes::load`] takes; the extent's own where empty.
+    pub scenes: Vec<String>,
+    /// How much.
+    pub extent: Extent,
+    /// Pixels across and down; the extent's own where left open.
+    pub size: Option<(u32, u32)>,
+    /// Folder for `peers.json` and `peers.html`.
+    pub out: PathBuf,
+}
+
+impl Order {
+    fn bouts(&self) -> Vec<Bout> {
+        let (scenes, size, rounds): (&[&str], _, _) = match self.extent {
+            Extent::Quick => (&["scattered:300", "pool:300"], (64, 48), 2),
+            Extent::Whole => (
+                &["scattered:10000", "scattered-100k", "pool-10k", "tornado-128k", "molecule"],
+                (640, 480),
+                5,
+            ),
+        };
+        let size = self.size.unwrap_or(size);
+        let specs = named_or(&self.scenes, scenes);
+        specs.into_iter().map(|spec| Bout { spec, size, rounds }).collect()
+    }
+}
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measurements {
+    /// Where it comes from; its format is [`SCHEMA`].
+    #[serde(flatten)]
+    pub provenance: Provenance,
+    /// Threads of either tracer.
+    pub threads: usize,
+    /// What the peer calls itself; `null` where it is not installed.
+    pub peer: Option<String>,
+    /// What a reader should know.
+    pub remarks: Vec<String>,
+    /// The scenes, in the order measured.
+    pub scenes: Vec<Outcome>,
+}
+
+/// Measures, prints the table, and writes it.
+///
+/// # Errors
+/// When a file cannot be written, or nothing could be measured.
+pub fn tables(order: &Order) -> anyhow::Result<()> {
+    let peer = Povray::find()?;
+    if peer.is_none() {
+        console::note(&absent());
+    }
+    let measurements = measure(&order.bouts(), peer.as_ref());
+    console::line(&console::table(&HEADINGS, &rows(&measurements.scenes)));
+    for remark in &measurements.remarks {
+        console::line(&format!("  {remark}"));
+    }
+    let page = order.out.join("peers.html");
+    write_json(&order.out.join("peers.json"), &measurements)?;
+    write_atomically(&page, page::page(&measurements).as_bytes())?;
+    console::line(&format!("\n{}", page.display()));
+    let measured = measurements.scenes.iter().any(|scene| scene.result.is_ok());
+    anyhow::ensure!(measured, "nothing could be measured; see the page");
+    Ok(())
+}
+
+fn absent() -> String {
+    format!("POV-Ray is not installed: its rows are skipped. {INSTALL}")
+}
+
+fn measure(bouts: &[Bout], peer: Option<&Povray>) -> Measurements {
+    let progress = ProgressBar::new(bouts.iter().map(Bout::steps).sum());
+    let outcome = |bout: &Bout| {
+        let result = run::measure(bout, peer, &progress);
+        let (scene, size) = (bout.spec.clone(), bout.size);
+        Outcome { scene, size, result: result.map_err(|error| format!("{error:#}")) }
+    };
+    let scenes: Vec<_> = bouts.iter().map(outcome).collect();
+    drop(progress);
+
+    let mut remarks = Vec::new();
+    if peer.is_none() {
+        remarks.push(absent());
+    }
+    let replaced: Vec<_> = scenes.iter().filter_map(replaced_kernel).collect();
+    if !replaced.is_empty() {
+        remarks.push(format!(
+            "Drawn with the power kernel of α = 2 instead of their own: {}.",
+            replaced.join(", ")
+        ));
+    }
+    Measurements {
+        provenance: Provenance::here(SCHEMA),
+        threads: run::THREADS,
+        peer: peer.map(|peer| peer.version().to_owned()),
+        remarks,
+        scenes,
+    }
+}
+
+fn replaced_kernel(outcome: &Outcome) -> Option<&str> {
+    let measured = outcome.result.as_ref().ok()?;
+    (measured.kernel != Kernel::QUARTIC.to_string()).then_some(outcome.scene.as_str())
+}
+
+/// Columns of the table.
+const HEADINGS: [&str; 13] = [
+    "scene",
+    "balls",
+    "tracer",
+    "prepare ms",
+    "trace ms",
+    "CPU ms",
+    "times as fast",
+    "hits",
+    "missed",
+    "phantom",
+    "wrong front",
+    "error of t",
+    "worst, radii",
+];
+
+/// Three rows a scene: ours, the peer's, and what the oracle says; or one with a reason.
+fn rows(scenes: &[Outcome]) -> Vec<Vec<String>> {
+    scenes.iter().flat_map(rows_of).collect()
+}
+
+fn rows_of(outcome: &Outcome) -> Vec<Vec<String>> {
+    let head = |balls: &str, tracer: &str| {
+        vec![outcome.scene.clone(), balls.to_owned(), tracer.to_owned()]
+    };
+    let measured = match &outcome.result {
+        Ok(measured) => measured,
+        Err(reason) => return vec![head("", reason)],
+    };
+    let balls = grouped(measured.balls);
+    let ratio = measured.times_as_fast().map_or_else(String::new, decimal);
+    let mut ours = head(&balls, "fbvh-certified");
+    ours.extend(cells(&measured.ours, ratio));
+    let peer = match &measured.peer {
+        Ok(traced) => {
+            let mut row = head(&balls, "POV-Ray blob");
+            row.extend(cells(traced, String::new()));
+            row
+        }
+        Err(reason) => head(&balls, &format!("POV-Ray blob: {reason}")),
+    };
+    vec![ours, peer, oracle(head(&balls, "oracle"), measured)]
+}
+
+/// The oracle's row: what the others are held against.
+fn oracle(mut row: Vec<String>, measured: &Measured) -> Vec<String> {
+    let accuracy = &measured.ours.accuracy;
+    row.extend(std::iter::repeat_n(String::new(), 4));
+    row.push(grouped(accuracy.oracle_hits));
+    row.push(format!("{} of {} rays ambiguous", accuracy.ambiguous, grouped(accuracy.rays)));
+    row
+}
+
+/// What stands beside the name of a tracer.
+fn cells(traced: &Traced, ratio: String) -> [String; 10] {
+    let accuracy = &traced.accuracy;
+    let dash = || "–".to_owned();
+    [
+        decimal(traced.prepare_ms.median),
+        decimal(traced.trace_ms.median),
+        traced.cpu_ms.map_or_else(dash, decimal),
+        ratio,
+        grouped(traced.hits),
+        grouped(accuracy.false_negative),
+        grouped(accuracy.false_positive),
+        grouped(accuracy.wrong_front),
+        accuracy.rel_rms_t.map_or_else(dash, small),
+        accuracy.t_error_over_radius.map_or_else(dash, |error| small(error.max)),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quick() -> Vec<Bout> {
+        let extent = Extent::Quick;
+        Order { scenes: Vec::new(), extent, size: None, out: PathBuf::new() }.bouts()
+    }
+
+    /// Ours is right, and so is the peer on scenes as small as these: an independent program finds
+    /// the same surface.
+    #[test]
+    fn a_quick_run_fills_every_row() {
+        let Some(peer) = Povray::find().expect("it runs where it is there") else {
+            console::note(&format!("skipped: {}", absent()));
+            return;
+        };
+        let measurements = measure(&quick(), Some(&peer));
+        for outcome in &measurements.scenes {
+            let measured = outcome.result.as_ref().expect("measured");
+            let traced = measured.peer.as_ref().expect("traced");
+            assert_eq!(measured.ours.accuracy.wrong_verdicts(), 0, "{outcome:?}");
+            assert_eq!(traced.accuracy.wrong_verdicts(), 0, "{outcome:?}");
+            assert!(traced.hits > 100, "{outcome:?}");
+            // Two channels of 16 bits, the fine one wrapping 4,096 times, tell the depth to 4e-9 of
+            // the range; what is left is its own error and an f32's.
+            assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-5, "{outcome:?}");
+            assert_eq!(traced.trace_ms.samples.len(), 2);
+        }
+        let text = serde_json::to_string(&measurements).expect("JSON");
+        let back: Measurements = serde_json::from_str(&text).expect("as written");
+        assert_eq!((back.provenance.schema.as_str(), back.scenes.len()), (SCHEMA, 2));
+        let page = page::page(&measurements);
+        for forbidden in ["<script", "http", "url(", "{{", "skipped", "/tmp"] {
+            assert!(!page.contains(forbidden), "{forbidden}");
+        }
+        assert!(page.contains("POV-Ray 3") && page.ends_with("</html>\n"));
+    }
+
+    /// Without the peer ours and the oracle's rows remain, and it is said what is missing.
+    #[test]
+    fn an_absent_peer_is_skipped_visibly() {
+        let measurements = measure(&quick()[..1], None);
+        let rows = rows(&measurements.scenes);
+        assert_eq!(rows.len(), 3);
+        assert!(rows[0].len() == HEADINGS.len() && rows[0][6].is_empty(), "{rows:?}");
+        assert!(rows[1][2].contains("not installed") && rows[2][2] == "oracle", "{rows:?}");
+        let page = page::page(&measurements);
+        assert!(page.contains("apt-get install povray") && page.contains("skipped"), "{page}");
+    }
+
+    /// What cannot be loaded is a row with a reason.
+    #[test]
+    fn a_scene_that_fails_is_named() {
+        let bout = Bout { spec: "nosuch".to_owned(), size: (4, 3), rounds: 1 };
+        let rows = rows(&measure(&[bout], None).scenes);
+        assert!(rows.len() == 1 && rows[0][2].contains("nosuch"), "{rows:?}");
+    }
+}

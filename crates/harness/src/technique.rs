@@ -1,0 +1,121 @@
+//! What a method does, with all its options: whatever else the harness knows of a method follows from
+//! this: its renderer, the tree that the CPU traces in its place, where it promises to be right, how
+//! near a root it stops, and the kernels that it refuses.
+
+use fbvh::{Kind, TraceOptions};
+use illes_fraglist::Piece;
+use metaball_core::gpu::IsoRenderer;
+use metaball_core::{Kernel, Scene};
+
+use crate::judge::Stop;
+use crate::judge::promise::Promise;
+
+/// What a method does, with all its options.
+#[derive(Debug, Clone, Copy)]
+pub enum Technique {
+    /// Traces a tree: Gourmel et al. 2010, and the certified tree.
+    Tree(fbvh::Options, TraceOptions),
+    /// Peels supports layer by layer: Kanamori et al. 2008.
+    Peeling(kanamori_peel::Options),
+    /// Searches tiles' lists of balls by intervals: `kanamori_peel::robust`.
+    TileSearch,
+    /// Gathers a list of balls for each pixel: Illés and Szécsi.
+    Fragments(illes_fraglist::Options),
+    /// A method of somebody else's.
+    Own(Own),
+}
+
+/// A method of somebody else's.
+#[derive(Debug, Clone, Copy)]
+pub struct Own {
+    /// Makes a renderer that counts its work or, as when timing, does not. Its name is the method's.
+    pub make: fn(counting: bool) -> Box<dyn IsoRenderer>,
+    /// Where it must be right: [`Promise::Always`], unless its paper says less.
+    pub promise: Promise,
+    /// How near a root it stops.
+    pub stop: Stop,
+    /// Kernels that it refuses, with a word that its error has in it; `None` for those that it draws.
+    pub refuses: fn(Kernel) -> Option<&'static str>,
+}
+
+impl Technique {
+    /// A renderer of that name without a scene. It counts its work or, as when timing, does not.
+    pub fn renderer(&self, name: &'static str, counting: bool) -> Box<dyn IsoRenderer> {
+        match *self {
+            Self::Tree(options, trace) => {
+                Box::new(fbvh::gpu::Renderer::new(name, options, trace, counting))
+            }
+            Self::Peeling(options) => {
+                Box::new(kanamori_peel::Renderer::new(name, options, counting))
+            }
+            Self::TileSearch => Box::new(kanamori_peel::robust::Renderer::new(name, counting)),
+            Self::Fragments(options) => {
+                Box::new(illes_fraglist::Renderer::new(name, options, counting))
+            }
+            Self::Own(own) => (own.make)(counting),
+        }
+    }
+
+    /// The tree that it traces, which the CPU traces too, if it is one of the trees.
+    pub fn tree(&self) -> Option<fbvh::Options> {
+        match self {
+            Self::Tree(options, _) => Some(*options),
+            _ => None,
+        }
+    }
+
+    /// Where it must be right.
+    pub fn promise(&self) -> Promise {
+        match *self {
+            Self::Tree(options, _) => match options.kind() {
+                Kind::ModifiedBvh => Promise::ProjectionOfCover,
+                Kind::Fitted => Promise::Projection,
+                Kind::Certified => Promise::Always,
+            },
+            Self::Peeling(options) => {
+                Promise::Peeling { list_capacity: options.list_capacity as usize }
+            }
+            Self::TileSearch => Promise::Always,
+            Self::Fragments(options) if options.piece == Piece::Robust => Promise::Always,
+            Self::Fragments(options) => {
+                Promise::Fragments { piece: options.piece, array_capacity: options.array_capacity }
+            }
+            Self::Own(own) => own.promise,
+        }
+    }
+
+    /// How near a root it stops, rounding aside.
+    pub fn stop(&self) -> Stop {
+        match *self {
+            Self::Tree(options, trace) => match options.kind() {
+                Kind::ModifiedBvh | Kind::Fitted => Stop::Residual(trace.tolerance.into()),
+                Kind::Certified => Stop::ROUNDING,
+            },
+            // Half the threshold, times an interval of at most two radii, and ten roundings of a
+            // distance of a few radii.
+            Self::Peeling(options) => Stop::Distance(f64::from(options.threshold) + 9e-6),
+            Self::TileSearch => Stop::ROUNDING,
+            // A piece is no longer than a radius.
+            Self::Fragments(_) => Stop::Distance(illes_fraglist::ROOT_TOLERANCE),
+            Self::Own(own) => own.stop,
+        }
+    }
+
+    /// Why it refuses a scene, in words that its error has in it; `None` where it does not.
+    pub fn refusal(&self, scene: &Scene) -> Option<&'static str> {
+        let kernel = scene.kernel();
+        match self {
+            Self::Peeling(_) => kernel
+                .degree_along_ray()
+                .is_none()
+                .then_some("needed a kernel that is a polynomial along a ray"),
+            Self::Fragments(options) if options.piece.is_exact() => {
+                kernel.degree_along_ray().is_none_or(|degree| degree > 6).then_some(
+                    "needed a kernel that is a polynomial of degree six or less along a ray",
+                )
+            }
+            Self::Own(own) => (own.refuses)(kernel),
+            Self::Tree(..) | Self::TileSearch | Self::Fragments(_) => None,
+        }
+    }
+}

@@ -1,0 +1,329 @@
+//! The commands that draw: `render` and `animate`.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use anyhow::{Context, bail, ensure};
+use bench_scenes::load;
+use clap::Args;
+use experiments::console::{self, ProgressBar};
+use harness::auto::MAX_ERROR;
+use harness::auto::cache::Cache;
+use harness::methods::find;
+use harness::numbers::{decimal, grouped};
+use metaball::{
+    AnimateOptions, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions, Drawing,
+    Error, FrameOutcome, Lit, Method, NumberedPath, Overrides, animate, draw_with_progress,
+};
+use metaball_core::{Color, Picture, Scene};
+
+use crate::camera::CameraArgs;
+use crate::light::LightArgs;
+use crate::motion::Motion;
+use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
+use crate::picture::{color_of, picture_named};
+use crate::shared::PictureArgs;
+use crate::values;
+
+/// What to draw, and how.
+#[derive(Debug, Args)]
+pub(crate) struct DrawingArgs {
+    /// A known name, a generator such as scattered:50000, or a file; for animate one that moves, such
+    /// as tornado:4000 or particles-%04d.xyz.
+    scene: String,
+    /// The method; fbvh-certified when left out. For render, auto chooses: see --max-error.
+    #[arg(long, value_name = "NAME", value_parser = drawer_parser())]
+    method: Option<String>,
+    /// What the picture shows: phong, normal, depth, color, spheres, or work:COUNTER.
+    #[arg(long, value_name = "WHAT", default_value = "phong", value_parser = picture_named)]
+    picture: Picture,
+    /// Trace on the CPU, without a graphics adapter: what happens anyway where there is none.
+    #[arg(long, conflicts_with_all = ["adapter", "software"])]
+    cpu: bool,
+    /// One colour for all balls, sRGB, 0 to 1; the scene's own, or white, when left out.
+    #[arg(long, value_name = "R,G,B", value_parser = color_of)]
+    color: Option<Color>,
+    #[command(flatten)]
+    camera: CameraArgs,
+    #[command(flatten)]
+    light: LightArgs,
+    #[command(flatten)]
+    shared: PictureArgs,
+}
+
+/// A scene by its words, and how to draw it.
+struct Order {
+    scene: String,
+    overrides: Overrides,
+    options: DrawOptions,
+}
+
+impl DrawingArgs {
+    /// Whoever was chosen otherwise draws; else the method named, or the default.
+    fn order(self, auto: Option<Choosing>) -> anyhow::Result<Order> {
+        let Self { scene, method, picture, cpu, color, camera, light, shared } = self;
+        let method = match auto {
+            Some(choosing) => Method::Auto(choosing),
+            None => {
+                let name = method.as_deref().unwrap_or(DEFAULT_METHOD);
+                let listed = find(name).with_context(|| format!("no method is called {name}"))?;
+                Method::Listed(listed.into())
+            }
+        };
+        let backend = if cpu { Backend::Cpu } else { Backend::Adapter(shared.device.choice()) };
+        let options = DrawOptions {
+            method,
+            size: shared.size,
+            viewpoint: camera.viewpoint(),
+            picture,
+            light: light.options(),
+            backend,
+        };
+        Ok(Order { scene, overrides: Overrides { color, ..shared.overrides() }, options })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    drawing: DrawingArgs,
+    /// Draw with the quickest method and options whose error on this scene is at most so many mean
+    /// support radii for 99 of 100 hits, with no wrong verdict [default of auto: 1e-3].
+    #[arg(long, value_name = "E", value_parser = values::max_error)]
+    max_error: Option<f64>,
+    /// With auto, neither look for a choice made earlier nor keep the one made now.
+    #[arg(long)]
+    ignore_cache: bool,
+    /// Where the PNG goes.
+    #[arg(long, value_name = "FILE", default_value = "out/image.png")]
+    out: PathBuf,
+    /// Write distances (Z) and normals (N.X, N.Y, N.Z) as f32 channels of an OpenEXR file too.
+    #[arg(long, value_name = "FILE")]
+    hits: Option<PathBuf>,
+    /// Write the picture's linear light as an OpenEXR file too.
+    #[arg(long, value_name = "FILE", requires = "LightArgs")]
+    light_out: Option<PathBuf>,
+}
+
+impl RenderArgs {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        let auto = self.choosing()?;
+        let Self { drawing, out, hits, light_out, .. } = self;
+        let Order { scene, overrides, options } = drawing.order(auto)?;
+        if matches!(options.method, Method::Auto(_)) {
+            ensure!(
+                options.backend != Backend::Cpu,
+                "auto needs a graphics adapter to measure methods on; for the CPU name a method"
+            );
+            console::note("auto: drawing with every candidate, and asking the oracle");
+        }
+        let bench = load(&scene, &overrides)?;
+        let mut progress = None;
+        let drawing = draw_with_progress(&bench.scene, &bench.camera, &options, |_, samples| {
+            progress.get_or_insert_with(|| ProgressBar::new(samples.into())).advance(1);
+        });
+        drop(progress);
+        let drawing = drawing.map_err(by_flag)?;
+        drawing.save_image(&out)?;
+        if let Some(path) = &hits {
+            drawing.save_hits(path)?;
+        }
+        if let Some(path) = &light_out {
+            drawing.save_light(path)?;
+        }
+        report(&bench.name, &bench.scene, &drawing);
+        line("picture", &out.display().to_string());
+        if let Some(lit) = &drawing.light {
+            line("light", &light_facts(lit));
+        }
+        if let Some(range) = drawing.range {
+            line("scale", &format!("{} to {}", range.low, range.high));
+        }
+        if let Some(path) = &hits {
+            line("hits file", &path.display().to_string());
+        }
+        Ok(())
+    }
+
+    #[cfg(test)]
+    pub(crate) fn light(self) -> metaball::LightOptions {
+        self.drawing.light.options()
+    }
+
+    /// Whether to choose who draws; an error is asked of `auto` alone.
+    fn choosing(&self) -> anyhow::Result<Option<Choosing>> {
+        let (name, max_error) = (self.drawing.method.as_deref(), self.max_error);
+        if name == Some(AUTO) || (name.is_none() && max_error.is_some()) {
+            let cache = if self.ignore_cache { Cache::none() } else { Cache::of_user() };
+            return Ok(Some(Choosing { max_error: max_error.unwrap_or(MAX_ERROR), cache }));
+        }
+        let name = name.unwrap_or(DEFAULT_METHOD);
+        ensure!(max_error.is_none(), "--max-error: needed --method auto, found --method {name}");
+        ensure!(!self.ignore_cache, "--ignore-cache: needed --method auto, found --method {name}");
+        Ok(None)
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct AnimateArgs {
+    #[command(flatten)]
+    drawing: DrawingArgs,
+    /// Frames, the last one not included; all, or the first seconds of what goes on for ever.
+    #[arg(long, value_name = "A..B", value_parser = values::frame_range)]
+    frames: Option<Range<u32>>,
+    /// Draw every Nth of them.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    every: u32,
+    /// Where the PNGs go: %d stands for the frame's number, %04d for four digits or more.
+    #[arg(long, value_name = "FILE", default_value = "out/frame-%04d.png")]
+    out: NumberedPath,
+    /// Write a picture of all these frames side by side too.
+    #[arg(long, value_name = "FILE")]
+    sheet: Option<PathBuf>,
+    /// Draw all frames, those that are there too.
+    #[arg(long)]
+    force: bool,
+    /// Build for a frame only after the one before has been drawn, not meanwhile.
+    #[arg(long)]
+    in_turn: bool,
+}
+
+impl AnimateArgs {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        let Self { drawing, frames, every, out, sheet, force, in_turn } = self;
+        ensure!(
+            drawing.method.as_deref() != Some(AUTO),
+            "auto chooses for one picture: for frames name a method"
+        );
+        let Order { scene, overrides, options: draw } = drawing.order(None)?;
+        let motion = Motion::load(&scene, &overrides)?;
+        let options = AnimateOptions { draw, frames, every, out, sheet, force, in_turn };
+        let mut progress = None;
+        let (report, path) = animate(&motion, &options, |event| match event {
+            AnimationEvent::Begins { missing, kept, absent } => {
+                if absent > 0 {
+                    console::note(&format!("{scene} has no frame for {absent} numbers"));
+                }
+                if kept > 0 {
+                    let all = kept + missing;
+                    console::note(&format!("{kept} of {all} frames are there already"));
+                }
+                progress = Some(ProgressBar::new(missing as u64));
+            }
+            AnimationEvent::Done(frame) => {
+                if let Some(progress) = &progress {
+                    progress.advance(1);
+                    let outcome = outcome_text(&frame.outcome);
+                    progress.stage(format!("frame {}: {outcome}", frame.number));
+                }
+            }
+            _ => {}
+        })
+        .map_err(by_flag)?;
+        drop(progress);
+        report_animation(&report);
+        line("report", &path.display().to_string());
+        let broken: Vec<_> = report.broken().collect();
+        for (number, error) in &broken {
+            console::note(&format!("frame {number}: {error}"));
+        }
+        if !broken.is_empty() {
+            let all = report.frames.len() + report.kept.len();
+            bail!("{} of {all} frames could not be drawn", broken.len());
+        }
+        Ok(())
+    }
+}
+
+/// The error, with an option as it is written on the command line.
+fn by_flag(error: Error) -> anyhow::Error {
+    match error {
+        Error::Option { option, needed, found } => {
+            anyhow::anyhow!("--{}: needed {needed}, found {found}", option.replace('_', "-"))
+        }
+        error => error.into(),
+    }
+}
+
+fn line(name: &str, value: &str) {
+    console::line(&format!("{name:<10} {value}"));
+}
+
+fn report(name: &str, scene: &Scene, drawing: &Drawing) {
+    line("scene", name);
+    line("balls", &format!("{} of kernel {}", grouped(scene.len()), scene.kernel()));
+    line("threshold", &scene.threshold().to_string());
+    for (name, value) in &drawing.account {
+        line(name, value);
+    }
+    line("adapter", &drawing.computed_by);
+    line("build", &ms(1e3 * drawing.build.as_secs_f64()));
+    line("frame", &ms(1e3 * drawing.frame.as_secs_f64()));
+    let (hits, rays) = (grouped(drawing.hit_count()), grouped(drawing.hits.len()));
+    line("hits", &format!("{hits} of {rays} rays"));
+}
+
+fn light_facts(lit: &Lit) -> String {
+    let each = decimal(1e3 * lit.time.as_secs_f64() / f64::from(lit.samples));
+    let undecided = match lit.undecided {
+        0 => String::new(),
+        rays => format!(", {rays} rays undecided in the last"),
+    };
+    format!("{} samples of {each} ms{undecided}", lit.samples)
+}
+
+fn outcome_text(outcome: &FrameOutcome) -> String {
+    match outcome {
+        FrameOutcome::Drawn(times) => {
+            let [build, draw] = [times.build_ms, times.draw_ms].map(decimal);
+            format!("built in {build} ms, drawn in {draw} ms")
+        }
+        FrameOutcome::Broken { .. } => "not drawn".to_owned(),
+    }
+}
+
+fn report_animation(report: &AnimationReport) {
+    line("scene", &report.scene);
+    line("method", &report.method);
+    line("adapter", &report.computed_by);
+    line("drawn", &format!("{} frames in {}", report.frames.len(), ms(report.wall_ms)));
+    if let Some(median) = &report.median {
+        line("load", &ms(median.load_ms));
+        line("build", &ms(median.build_ms));
+        line("draw", &ms(median.draw_ms));
+        line("shade", &ms(median.shade_ms));
+    }
+    if let Some(hidden) = report.hidden {
+        line("hidden", &format!("{:.0} % of loading and building, behind drawing", 100.0 * hidden));
+    }
+    if let Some(caveat) = &report.caveat {
+        line("but", caveat);
+    }
+}
+
+fn ms(milliseconds: f64) -> String {
+    format!("{} ms", decimal(milliseconds))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Command, parse};
+
+    #[test]
+    fn an_error_asks_for_auto() {
+        let chosen = |line: &str| {
+            let Ok(Command::Render(render)) = parse(line) else { panic!("a legal command line") };
+            render.choosing()
+        };
+        let error = |line| chosen(line).expect("consistent").map(|choosing| choosing.max_error);
+        assert_eq!(error("metaball render molecule"), None);
+        assert_eq!(error("metaball render molecule --method illes"), None);
+        assert_eq!(error("metaball render molecule --method auto"), Some(MAX_ERROR));
+        assert_eq!(error("metaball render molecule --max-error 0.05"), Some(0.05));
+        let line = "metaball render molecule --method illes --max-error 0.05";
+        assert!(chosen(line).expect_err("a contradiction").to_string().contains("auto"));
+        assert!(parse("metaball render molecule --max-error 0").is_err());
+        assert!(parse("metaball render molecule --max-error NaN").is_err());
+    }
+}

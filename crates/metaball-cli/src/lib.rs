@@ -1,0 +1,129 @@
+//! The command line `metaball`: arguments and words. A file for each kind of command; what they do is
+//! in the crates `metaball`, which draws, and `experiments`, which measures.
+
+mod camera;
+mod draw;
+mod light;
+mod list;
+mod measure;
+mod motion;
+mod names;
+mod picture;
+mod shared;
+mod tables;
+mod values;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use experiments::console;
+
+use self::draw::{AnimateArgs, RenderArgs};
+use self::measure::{CertifyArgs, ChartArgs, CompareArgs, StabilityArgs};
+use self::tables::TablesCommand;
+
+/// Ray casters of metaball isosurfaces on the GPU, compared with an exact reference.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Draw scenes with methods, hold the pictures against the reference, and write a page about it.
+    Compare(CompareArgs),
+    /// Draw one picture.
+    Render(Box<RenderArgs>),
+    /// Draw the frames of a moving scene, and report how long building and drawing took.
+    ///
+    /// Frames that are there already, whole and drawn with these options, are not drawn again, so an
+    /// interrupted run is taken up where it was, and the range can be split among machines.
+    Animate(Box<AnimateArgs>),
+    /// Measure a paper's tables anew, and set the printed numbers beside; or other programs; or what it
+    /// saves that shaders are made for a scene.
+    Tables {
+        #[command(subcommand)]
+        of: TablesCommand,
+    },
+    /// Turn the parameters of stability cases until methods break, and write a page about where.
+    Stability(StabilityArgs),
+    /// Hold the certified tree against the reference over a hundred million rays, most of them hard.
+    ///
+    /// Every stability case within the stated limits, then random scenes; rays of pictures, along the
+    /// surface, along the faces of the tree's boxes, out of the solid. The CPU's tracer answers all, the
+    /// adapter a third. Fails where an answer is wrong, or too many are undecided or inexact. An
+    /// interrupted run is taken up where it was.
+    Certify(CertifyArgs),
+    /// Chart error against time over every method's knobs, and growth with count and density.
+    Chart(ChartArgs),
+    /// List the known scenes and the generators.
+    Scenes,
+    /// List the methods.
+    Methods,
+}
+
+/// Does what the process's arguments say, and says what went wrong.
+pub fn run() -> ExitCode {
+    match obey(Cli::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            console::note(&format!("metaball: {error:#}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn obey(command: Command) -> anyhow::Result<()> {
+    match command {
+        Command::Compare(compare) => compare.run(),
+        Command::Render(render) => render.run(),
+        Command::Animate(animate) => animate.run(),
+        Command::Tables { of } => of.run(),
+        Command::Stability(stability) => stability.run(),
+        Command::Certify(certify) => certify.run(),
+        Command::Chart(chart) => chart.run(),
+        Command::Scenes => {
+            list::scenes();
+            Ok(())
+        }
+        Command::Methods => {
+            list::methods();
+            Ok(())
+        }
+    }
+}
+
+#[cfg(test)]
+fn parse(line: &str) -> Result<Command, clap::Error> {
+    Cli::try_parse_from(line.split_whitespace()).map(|cli| cli.command)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let message = |line| parse(line).expect_err("a mistake").to_string();
+        assert!(message("metaball compare --methods nosuch").contains("bvh"));
+        assert!(message("metaball compare --size 640").contains("WIDTHxHEIGHT"));
+        assert!(message("metaball compare --size 0x480").contains("WIDTHxHEIGHT"));
+        assert!(message("metaball compare --frames 0").contains("--frames"));
+        assert!(message("metaball render molecule --picture nosuch").contains("work:"));
+        assert!(message("metaball compare --kernel gauss").contains("wyvill or perlin"));
+        assert!(message("metaball stability --cases nosuch").contains("grazing"));
+        assert!(message("metaball animate splash --frames 5..5").contains("FIRST..END"));
+        assert!(message("metaball animate splash --out frame.png").contains("frame-%04d.png"));
+        assert!(parse("metaball render").is_err());
+        assert!(parse("metaball render molecule --cpu --software").is_err());
+    }
+}

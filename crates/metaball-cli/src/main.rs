@@ -1,0 +1,7 @@
+//! The binary `metaball`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    metaball_cli::run()
+}

@@ -1,0 +1,204 @@
+//! The commands that measure and judge: `compare`, `chart`, `stability` and `certify`.
+
+use std::path::PathBuf;
+
+use bench_scenes::Case;
+use clap::Args;
+use experiments::certify::{self, certify};
+use experiments::chart::{self, chart};
+use experiments::compare::{Comparison, DEFAULT_SCENES, compare};
+use experiments::stability::{self, stability};
+use harness::contest::Rules;
+use harness::measure::Sampling;
+use harness::methods::{HEADLINERS, Method, methods};
+use harness::settings::Setting;
+
+use crate::names::{case_parser, entrant_parser, method_parser};
+use crate::shared::{AdapterArgs, PictureArgs};
+use crate::values;
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    /// Known names, generators such as scattered:50000, or scene and particle files.
+    #[arg(value_name = "SCENE", default_values = DEFAULT_SCENES)]
+    scenes: Vec<String>,
+    /// Methods, separated by commas.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = method_parser())]
+    #[arg(default_values = HEADLINERS)]
+    methods: Vec<&'static Method>,
+    /// All methods and their variants.
+    #[arg(long)]
+    every_method: bool,
+    /// Timed frames of each method on each scene; when left out five, or what fits in four seconds.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    frames: Option<u16>,
+    /// Time along the scene's camera path, where it has one.
+    #[arg(long)]
+    path: bool,
+    /// Compare every pixel, of large scenes too.
+    #[arg(long)]
+    every_pixel: bool,
+    /// Folder for index.html and records.json.
+    #[arg(long, value_name = "DIR", default_value = "out/compare")]
+    out: PathBuf,
+    #[command(flatten)]
+    shared: PictureArgs,
+}
+
+impl CompareArgs {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        let chosen = if self.every_method { methods().iter().collect() } else { self.methods };
+        let rules = Rules {
+            settings: chosen.into_iter().map(Setting::preset).collect(),
+            size: self.shared.size,
+            sampling: self.frames.map_or(Sampling::QUICK, |n| Sampling::exactly(n.into())),
+            along_path: self.path,
+            every_pixel: self.every_pixel,
+            counts_work: true,
+        };
+        let (overrides, adapter) = (self.shared.overrides(), self.shared.device.choice());
+        compare(&Comparison { scenes: self.scenes, overrides, rules, adapter, out: self.out })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ChartArgs {
+    /// Scenes for error against time: known names, generators, or files.
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// Small scenes, small pictures: about a minute, to see that everything works.
+    #[arg(long)]
+    quick: bool,
+    /// Begin anew where an interrupted run left its results.
+    #[arg(long)]
+    fresh: bool,
+    /// Pixels across and down; 640x480 when left out, 320x240 on a software adapter.
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    size: Option<(u32, u32)>,
+    /// Folder for chart.html and chart.json.
+    #[arg(long, value_name = "DIR", default_value = "out/chart")]
+    out: PathBuf,
+    #[command(flatten)]
+    device: AdapterArgs,
+}
+
+impl ChartArgs {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        use chart::plan::Extent;
+        let Self { scenes, quick, fresh, size, out, device } = self;
+        let extent = if quick { Extent::Quick } else { Extent::Whole };
+        chart(&chart::Order { extent, scenes, size, adapter: device.choice(), out, fresh })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StabilityArgs {
+    /// A few values of each case only: about a minute, to see that everything works.
+    #[arg(long)]
+    quick: bool,
+    /// Cases, separated by commas; all when left out.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = case_parser())]
+    cases: Vec<&'static Case>,
+    /// Methods and their options, separated by commas; all when left out.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = entrant_parser())]
+    methods: Vec<Setting>,
+    /// Folder for index.html and records.json.
+    #[arg(long, value_name = "DIR", default_value = "out/stability")]
+    out: PathBuf,
+    #[command(flatten)]
+    device: AdapterArgs,
+}
+
+impl StabilityArgs {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        let Self { quick, cases, methods, out, device } = self;
+        stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CertifyArgs {
+    /// Different rays, at least [default: 100000000, or 100000 with --quick]. A hundred million take two
+    /// cores ten minutes with --cpu, and longer with an adapter.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    rays: Option<u64>,
+    /// A few values of each case, few rays a scene: seconds, to see that everything works.
+    #[arg(long)]
+    quick: bool,
+    /// Other random scenes for another seed.
+    #[arg(long, value_name = "S", default_value = "1", value_parser = clap::value_parser!(u32))]
+    seed: u32,
+    /// Only the CPU's tracer.
+    #[arg(long, conflicts_with_all = ["adapter", "software"])]
+    cpu: bool,
+    /// Folder for certify.json.
+    #[arg(long, value_name = "DIR", default_value = "out/certify")]
+    out: PathBuf,
+    #[command(flatten)]
+    device: AdapterArgs,
+}
+
+impl CertifyArgs {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        let Self { rays, quick, seed, cpu, out, device } = self;
+        let rays = rays.unwrap_or(if quick { 100_000 } else { 100_000_000 });
+        let adapter = (!cpu).then(|| device.choice());
+        certify(&certify::Order { rays, quick, seed: seed.into(), adapter, out })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::Overrides;
+    use metaball_core::Kernel;
+    use metaball_core::gpu::AdapterChoice;
+
+    use super::*;
+    use crate::{Command, parse};
+
+    #[test]
+    fn compare_has_the_documented_defaults() {
+        let Ok(Command::Compare(compare)) = parse("metaball compare") else {
+            panic!("compare needs no arguments");
+        };
+        assert_eq!(compare.scenes, DEFAULT_SCENES);
+        assert_eq!(compare.scenes[0], "molecule");
+        let names: Vec<_> = compare.methods.iter().map(|method| method.name).collect();
+        assert_eq!(names, HEADLINERS);
+        assert!(!compare.every_method && compare.frames.is_none());
+        assert_eq!((compare.shared.size, compare.out), ((640, 480), PathBuf::from("out/compare")));
+        assert_eq!(compare.shared.device.choice(), AdapterChoice::Environment);
+        assert_eq!(compare.shared.overrides(), Overrides::default());
+    }
+
+    #[test]
+    fn arguments_are_taken() {
+        let line = "metaball compare a.pdb scattered:500 --methods bvh,fbvh --size 32x24 --frames 2 \
+                    --kernel wyvill --exponent 3 --threshold 0.5 --adapter llvm";
+        let Ok(Command::Compare(compare)) = parse(line) else { panic!("a legal command line") };
+        assert_eq!(compare.scenes, ["a.pdb", "scattered:500"]);
+        let names: Vec<_> = compare.methods.iter().map(|method| method.name).collect();
+        assert_eq!((names.as_slice(), compare.frames), (&["bvh", "fbvh"][..], Some(2)));
+        assert_eq!(compare.shared.size, (32, 24));
+        assert_eq!(compare.shared.device.choice(), AdapterChoice::Named("llvm".to_owned()));
+        let wanted = Overrides {
+            kernel: Some(Kernel::Wyvill),
+            exponent: Some(3),
+            threshold: Some(0.5),
+            color: None,
+        };
+        assert_eq!(compare.shared.overrides(), wanted);
+    }
+
+    #[test]
+    fn stability_tries_everything_unless_told() {
+        let Ok(Command::Stability(all)) = parse("metaball stability") else {
+            panic!("stability needs no arguments");
+        };
+        assert!(!all.quick && all.cases.is_empty() && all.methods.is_empty());
+        assert_eq!(all.out, PathBuf::from("out/stability"));
+        let line = "metaball stability --quick --cases crowd,neck --methods kanamori+fine";
+        let Ok(Command::Stability(few)) = parse(line) else { panic!("a legal command line") };
+        assert!(few.quick && few.cases.len() == 2 && few.methods[0].name == "kanamori+fine");
+    }
+}

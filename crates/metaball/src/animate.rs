@@ -1,0 +1,363 @@
+//! The frames of a scene that moves.
+
+mod pipeline;
+mod report;
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use metaball_core::{Camera, Scene, View};
+use particle_files::{NumberedPath, Sequence};
+use picture_files::{PictureFileError, description_in_png, write_atomically, write_sheet};
+
+use self::pipeline::Job;
+pub use self::report::{AnimationReport, FrameOutcome, FrameReport, FrameTimes};
+use crate::{DrawOptions, Error};
+
+/// Any error of an [`AnimatedScene`].
+pub type BoxError = Box<dyn std::error::Error + Send + Sync>;
+
+/// A scene for each frame. Frames are independent: any may be asked for, in any order and from any
+/// thread, and is the same each time.
+pub trait AnimatedScene: Sync {
+    /// What moves, for people.
+    fn name(&self) -> &str;
+
+    /// All that its frames depend on except the content of files: a frame is kept from an earlier run
+    /// only if this was the same then.
+    fn description(&self) -> String;
+
+    /// A camera for all frames.
+    fn camera(&self) -> &Camera;
+
+    /// The frames that it has; where it goes on for ever, its first seconds.
+    fn frames(&self) -> Range<u32>;
+
+    /// The numbers of frames in a range for which there is something to draw.
+    ///
+    /// # Errors
+    /// When that cannot be found out.
+    fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError>;
+
+    /// The scene of a frame.
+    ///
+    /// # Errors
+    /// When there is none; does not stop the other frames.
+    fn frame(&self, number: u32) -> Result<Scene, BoxError>;
+}
+
+impl AnimatedScene for Sequence {
+    fn name(&self) -> &str {
+        self.name()
+    }
+
+    fn description(&self) -> String {
+        format!("{} with {:?}", self.name(), self.overrides())
+    }
+
+    fn camera(&self) -> &Camera {
+        self.camera()
+    }
+
+    fn frames(&self) -> Range<u32> {
+        self.frames()
+    }
+
+    fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
+        Ok(self.present(range)?)
+    }
+
+    fn frame(&self, number: u32) -> Result<Scene, BoxError> {
+        Ok(self.frame(number)?)
+    }
+}
+
+/// Which frames to draw, how, and where to.
+#[derive(Debug, Clone)]
+pub struct AnimateOptions {
+    /// How to draw each.
+    pub draw: DrawOptions,
+    /// Which frames; `None` for all, or the first seconds of what goes on for ever.
+    pub frames: Option<Range<u32>>,
+    /// Only every so manyth of them; 0 counts as 1.
+    pub every: u32,
+    /// Where the PNGs go. The report goes beside them, named like the first but ending in `json`.
+    pub out: NumberedPath,
+    /// Where a picture of all frames side by side goes, if anywhere. None is written where frames are
+    /// broken.
+    pub sheet: Option<PathBuf>,
+    /// Draw what is there already, too.
+    pub force: bool,
+    /// Whether each frame is built only after the one before was drawn.
+    pub in_turn: bool,
+}
+
+impl AnimateOptions {
+    /// All frames to PNGs of these names, with all defaults.
+    pub fn new(out: NumberedPath) -> Self {
+        Self {
+            draw: DrawOptions::default(),
+            frames: None,
+            every: 1,
+            out,
+            sheet: None,
+            force: false,
+            in_turn: false,
+        }
+    }
+}
+
+/// What happens while frames are drawn.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub enum AnimationEvent<'a> {
+    /// The first frame begins.
+    Begins {
+        /// Frames to draw.
+        missing: usize,
+        /// Frames that are there already.
+        kept: usize,
+        /// Numbers in the range for which the scene has no frame.
+        absent: usize,
+    },
+    /// A frame is done.
+    Done(&'a FrameReport),
+}
+
+/// Draws the frames that are not there yet. Returns the report, and where it is written.
+///
+/// A frame is there if its file is a whole PNG that says it was drawn with these options. Whether the
+/// user's particles have changed since is not looked at.
+///
+/// A frame whose particles cannot be used does not stop the others: the report
+/// [names it](AnimationReport::broken). What the method or the adapter refuses stops the run.
+///
+/// # Errors
+/// When there is no frame to draw, one cannot be drawn or a file not be written.
+pub fn animate(
+    scene: &dyn AnimatedScene,
+    options: &AnimateOptions,
+    mut on_event: impl FnMut(AnimationEvent<'_>),
+) -> Result<(AnimationReport, PathBuf), Error> {
+    let draw = &options.draw;
+    let (numbers, absent) = numbers(scene, options)?;
+    let (width, height) = draw.size;
+    // The same for all frames, whichever of them are drawn: where and how large the scene is, its first
+    // one says.
+    let (mut camera, mut lighting) = (*scene.camera(), None);
+    if draw.viewpoint.is_asked() || draw.light.is_asked() {
+        let first = scene.frame(scene.frames().start).map_err(Error::Frames)?;
+        camera = draw.viewpoint.camera(&camera, first.bounds().center())?;
+        let is_lit = draw.light.is_asked();
+        lighting = is_lit.then(|| draw.light.lighting(&camera, &first)).transpose()?;
+    }
+    let view = View::new(camera, width, height)?;
+    let gpu = draw.backend.open()?;
+    let job = Job {
+        options: draw,
+        scene,
+        view: &view,
+        gpu: gpu.as_ref(),
+        lighting: lighting.as_ref(),
+        out: &options.out,
+    };
+
+    let is_kept = |number: &u32| {
+        let found = description_in_png(&options.out.path(*number));
+        !options.force && found.is_some_and(|found| found == job.description(*number))
+    };
+    let (kept, missing): (Vec<u32>, Vec<u32>) = numbers.iter().partition(|number| is_kept(number));
+    on_event(AnimationEvent::Begins { missing: missing.len(), kept: kept.len(), absent });
+    let start = Instant::now();
+    let frames =
+        job.draw(&missing, options.in_turn, |frame| on_event(AnimationEvent::Done(frame)))?;
+
+    let report = AnimationReport::new(&job, options, kept, frames, start.elapsed());
+    let path = options.out.path(numbers[0]).with_extension("json");
+    let json = serde_json::to_vec_pretty(&report).map_err(|source| PictureFileError::Encode {
+        what: path.display().to_string(),
+        source: source.into(),
+    })?;
+    write_atomically(&path, &json)?;
+    if let (Some(sheet), None) = (&options.sheet, report.broken().next()) {
+        let pictures: Vec<_> = numbers.iter().map(|number| options.out.path(*number)).collect();
+        write_sheet(sheet, &pictures)?;
+    }
+    Ok((report, path))
+}
+
+/// The frames to draw, those of the range that there are, at least one; and how many there are not.
+fn numbers(
+    scene: &dyn AnimatedScene,
+    options: &AnimateOptions,
+) -> Result<(Vec<u32>, usize), Error> {
+    let range = options.frames.clone().unwrap_or(scene.frames());
+    let present = scene.present(range.clone()).map_err(Error::Frames)?;
+    if present.is_empty() {
+        let (scene, frames) = (scene.name().to_owned(), scene.frames());
+        return Err(Error::NoFrames { scene, range, frames });
+    }
+    let absent = range.len().saturating_sub(present.len());
+    Ok((present.into_iter().step_by(options.every.max(1) as usize).collect(), absent))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use bench_scenes::{Moving, Overrides};
+    use metaball_core::gpu::{AdapterChoice, Gpu};
+
+    use super::*;
+    use crate::{Backend, LightOptions};
+
+    /// A scene that moves without a file.
+    pub(super) struct Tornado {
+        moving: Moving,
+        overrides: Overrides,
+    }
+
+    impl Tornado {
+        pub(super) fn load(spec: &str, overrides: &Overrides) -> Self {
+            let moving = Moving::load(spec, overrides).expect("a scene that moves");
+            Self { moving, overrides: *overrides }
+        }
+    }
+
+    impl AnimatedScene for Tornado {
+        fn name(&self) -> &str {
+            &self.moving.name
+        }
+
+        fn description(&self) -> String {
+            format!("{} with {:?}", self.moving.name, self.overrides)
+        }
+
+        fn camera(&self) -> &Camera {
+            &self.moving.camera
+        }
+
+        fn frames(&self) -> Range<u32> {
+            self.moving.frames.clone()
+        }
+
+        fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
+            Ok(self.moving.present(range)?)
+        }
+
+        fn frame(&self, number: u32) -> Result<Scene, BoxError> {
+            Ok(self.moving.frame(number)?)
+        }
+    }
+
+    fn folder() -> tempfile::TempDir {
+        tempfile::tempdir().expect("a folder")
+    }
+
+    fn options(backend: Backend, folder: &Path) -> AnimateOptions {
+        let out = folder.join("f-%02d.png").display().to_string().parse().expect("numbered");
+        AnimateOptions {
+            draw: DrawOptions { size: (32, 24), backend, ..DrawOptions::default() },
+            frames: Some(0..4),
+            ..AnimateOptions::new(out)
+        }
+    }
+
+    fn run(scene: &dyn AnimatedScene, options: &AnimateOptions) -> AnimationReport {
+        animate(scene, options, |_| ()).expect("drawn").0
+    }
+
+    fn frames(folder: &Path) -> Vec<Vec<u8>> {
+        (0..4).map(|n| fs::read(folder.join(format!("f-{n:02}.png"))).expect("drawn")).collect()
+    }
+
+    /// The pictures do not depend on the order, the threads or the runs that they were made in.
+    fn same_frames_however_made(backend: &Backend) {
+        let tornado = Tornado::load("tornado:300", &Overrides::default());
+        let folders = [folder(), folder(), folder()];
+        let [piped, in_turn, resumed] = folders.each_ref().map(tempfile::TempDir::path);
+        let options = |folder: &Path| options(backend.clone(), folder);
+        run(&tornado, &options(piped));
+        run(&tornado, &AnimateOptions { in_turn: true, ..options(in_turn) });
+        assert_eq!(frames(piped), frames(in_turn));
+        let distinct = frames(piped);
+        assert!(distinct.windows(2).all(|pair| pair[0] != pair[1]), "the scene moves");
+
+        // Interrupted: two frames, one of them of another size, and half of a third.
+        let mut other = options(resumed);
+        other.draw.size = (16, 12);
+        run(&tornado, &AnimateOptions { frames: Some(0..1), ..other });
+        run(&tornado, &AnimateOptions { frames: Some(2..3), ..options(resumed) });
+        let third = resumed.join("f-02.png");
+        let before = fs::metadata(&third).and_then(|data| data.modified()).expect("a file");
+        fs::write(resumed.join("f-03.png"), &distinct[3][..distinct[3].len() / 2])
+            .expect("written");
+        assert_eq!(run(&tornado, &options(resumed)).kept, [2]);
+        assert_eq!(frames(resumed), distinct);
+        let after = fs::metadata(&third).and_then(|data| data.modified()).expect("a file");
+        assert_eq!(before, after, "a frame that was there was drawn again");
+        assert!(resumed.join("f-00.json").is_file());
+    }
+
+    #[test]
+    fn the_cpu_draws_the_same_frames_however_made() {
+        same_frames_however_made(&Backend::Cpu);
+    }
+
+    #[test]
+    fn an_adapter_draws_the_same_frames_however_made() {
+        if Gpu::for_test().is_none() {
+            return;
+        }
+        same_frames_however_made(&Backend::Adapter(AdapterChoice::Environment));
+    }
+
+    #[test]
+    fn light_is_the_same_however_frames_are_made() {
+        if Gpu::for_test().is_none() {
+            return;
+        }
+        let tornado = Tornado::load("tornado:100", &Overrides::default());
+        let lit = |light: LightOptions, in_turn| {
+            let folder = folder();
+            let mut options = options(Backend::default(), folder.path());
+            options.draw.light = light;
+            run(&tornado, &AnimateOptions { frames: Some(3..5), in_turn, ..options });
+            fs::read(folder.path().join("f-04.png")).expect("drawn")
+        };
+        let shadows = LightOptions { shadows: true, ..LightOptions::default() };
+        let plain = LightOptions { samples: Some(1), ..LightOptions::default() };
+        let picture = lit(shadows.clone(), false);
+        assert_eq!(lit(shadows, true), picture);
+        assert_ne!(lit(plain, false), picture, "there is no shadow");
+    }
+
+    #[test]
+    fn a_broken_file_is_named_and_the_others_are_drawn() {
+        let folder = folder();
+        let folder = folder.path();
+        for number in 0..4 {
+            let radius = if number == 1 { "much" } else { "1" };
+            let table = format!("x,y,z,radius\n{number},0,0,{radius}\n");
+            fs::write(folder.join(format!("p{number}.csv")), table).expect("written");
+        }
+        let files = Sequence::open(folder.join("p%d.csv"), &Overrides::default()).expect("there");
+        let options = options(Backend::Cpu, folder);
+        let report =
+            run(&files, &AnimateOptions { sheet: Some(folder.join("s.png")), ..options.clone() });
+        let broken: Vec<_> = report.broken().collect();
+        let [(1, reason)] = broken[..] else { panic!("frame 1 is broken: {broken:?}") };
+        assert!(reason.contains("p1.csv, line 2"), "{reason}");
+        let there = |number: u32| folder.join(format!("f-{number:02}.png")).is_file();
+        assert_eq!([0, 1, 2, 3].map(there), [true, false, true, true]);
+        assert!(!folder.join("s.png").exists());
+        let report = fs::read_to_string(folder.join("f-00.json")).expect("written");
+        assert!(report.contains("p1.csv, line 2"), "{report}");
+
+        let beyond = AnimateOptions { frames: Some(7..9), ..options };
+        let error = animate(&files, &beyond, |_| ()).expect_err("there are none").to_string();
+        assert!(error.starts_with("frames 7..9: needed some of"), "{error}");
+    }
+}

@@ -1,0 +1,89 @@
+//! What can go wrong.
+
+use std::ops::Range;
+
+use metaball_core::gpu::{GpuError, RenderError};
+use metaball_core::{CameraError, ViewError};
+use metaball_light::PanoramaError;
+use particle_files::LoadError;
+use picture_files::PictureFileError;
+use thiserror::Error;
+
+use crate::BoxError;
+
+/// Why there is no picture. Every text names the thing, what was needed and what was found.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Particles cannot be loaded.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// An option cannot be used.
+    #[error("{option}: needed {needed}, found {found}")]
+    Option {
+        /// Its name, as the field's.
+        option: &'static str,
+        /// What it should be.
+        needed: String,
+        /// What it is.
+        found: String,
+    },
+    /// Only a graphics adapter does this.
+    #[error("{what} needs a graphics adapter; {instead}")]
+    NeedsAdapter {
+        /// What was asked for.
+        what: String,
+        /// What there is without one.
+        instead: String,
+    },
+    /// The options make no camera.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// The size makes no view.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// There is no adapter to draw with.
+    #[error(transparent)]
+    Adapter(#[from] GpuError),
+    /// The method or the adapter cannot draw the scene.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A tree cannot be built for the scene.
+    #[error("method {method}")]
+    Build {
+        /// The method.
+        method: String,
+        /// The builder's reason.
+        source: fbvh::BuildError,
+    },
+    /// An image of the surroundings cannot be used.
+    #[error(transparent)]
+    Panorama(#[from] PanoramaError),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] PictureFileError),
+    /// What an animation's scenes say of themselves.
+    #[error(transparent)]
+    Frames(BoxError),
+    /// There is no frame to draw.
+    #[error(
+        "frames {}..{}: needed some of {scene}'s frames {}..{}",
+        range.start, range.end, frames.start, frames.end
+    )]
+    NoFrames {
+        /// What moves.
+        scene: String,
+        /// The frames asked for.
+        range: Range<u32>,
+        /// The frames that it has.
+        frames: Range<u32>,
+    },
+    /// A frame of an animation stopped the run.
+    #[error("frame {number}")]
+    Frame {
+        /// Its number.
+        number: u32,
+        /// Why.
+        source: Box<Self>,
+    },
+}

@@ -1,0 +1,57 @@
+//! Pictures, hits and animations of the smooth surface that particles imply, traced on whatever the
+//! machine has: a graphics adapter, or else the CPU.
+//!
+//! ```
+//! use metaball::{Backend, DrawOptions, Overrides, draw, load};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let file = folder.path().join("water.xyz");
+//! # std::fs::write(&file, "3\nwater\nO 0 0 0.12\nH 0 0.76 -0.48\nH 0 -0.76 -0.48\n")?;
+//! let water = load(file, &Overrides::default())?;
+//! let options = DrawOptions { size: (160, 120), backend: Backend::Cpu, ..DrawOptions::default() };
+//! let drawing = draw(&water.scene, &water.camera, &options)?;
+//! println!("{} of {} rays hit", drawing.hit_count(), drawing.hits.len());
+//! # assert!(drawing.hit_count() > 1000);
+//! # let (image, hits) = (folder.path().join("water.png"), folder.path().join("water.exr"));
+//! drawing.save_image(&image)?;
+//! drawing.save_hits(&hits)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! - [`load`] reads a particle file; any [`Scene`] and [`Camera`] will do in its place.
+//! - [`draw()`] draws one picture, as [`DrawOptions`] say: [size](DrawOptions::size), another
+//!   [`Viewpoint`], [what it shows](DrawOptions::picture), [`LightOptions`], [which method](Method) and
+//!   [what computes](Backend). All of them have defaults. The result is a [`Drawing`]: the image, and
+//!   distance, normal and verdict of every ray.
+//! - [`animate()`] draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
+//!   while the structure of the next one is built.
+//!
+//! Without features the methods are the trees of the crate [`fbvh`]; the certified one, which is the
+//! default, answers no ray wrongly. Feature `harness` adds every other method, and a choice among all of
+//! them by measurement.
+
+mod animate;
+mod backend;
+mod cpu;
+mod draw;
+mod error;
+mod light;
+mod method;
+mod shade;
+mod viewpoint;
+
+pub use animate::{
+    AnimateOptions, AnimatedScene, AnimationEvent, AnimationReport, BoxError, FrameOutcome,
+    FrameReport, FrameTimes, animate,
+};
+pub use backend::Backend;
+pub use draw::{DrawOptions, Drawing, draw, draw_with_progress};
+pub use error::Error;
+pub use light::{FloorKind, LightOptions, Lit};
+pub use metaball_core::gpu::AdapterChoice;
+pub use metaball_core::{Camera, Hit, Image, Picture, Scene, Verdict, View, WorkKind};
+#[cfg(feature = "harness")]
+pub use method::Choosing;
+pub use method::Method;
+pub use particle_files::{Loaded, NumberedPath, Overrides, Sequence, load};
+pub use viewpoint::Viewpoint;

@@ -1,0 +1,8 @@
+//! Ray traced light in a picture: what may be asked for, and pictures lit by it.
+
+mod lighting;
+mod options;
+
+pub(crate) use lighting::Lighting;
+pub use lighting::Lit;
+pub use options::{FloorKind, LightOptions};

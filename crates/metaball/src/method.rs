@@ -1,0 +1,102 @@
+//! Who finds the surface.
+
+use fbvh::{Kind, Options, TraceOptions};
+use metaball_core::gpu::IsoRenderer;
+
+/// A method of finding the surface along rays.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Method {
+    /// A tree of the crate [`fbvh`]: the only methods that need no graphics adapter.
+    Tree(Options),
+    /// Any method of the harness.
+    #[cfg(feature = "harness")]
+    Listed(harness::settings::Setting),
+    /// Whatever is quickest on the scene and right enough.
+    #[cfg(feature = "harness")]
+    Auto(Choosing),
+}
+
+/// How to choose a method by measurement.
+#[cfg(feature = "harness")]
+#[derive(Debug, Clone)]
+pub struct Choosing {
+    /// The largest error for 99 of 100 hits, mean support radii.
+    pub max_error: f64,
+    /// Where choices are kept.
+    pub cache: harness::auto::cache::Cache,
+}
+
+impl Default for Method {
+    /// The certified tree.
+    fn default() -> Self {
+        Self::Tree(Options::certified())
+    }
+}
+
+impl Method {
+    /// Stable name, as on the command line.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Tree(options) => tree_name(options.kind()),
+            #[cfg(feature = "harness")]
+            Self::Listed(setting) => &setting.name,
+            #[cfg(feature = "harness")]
+            Self::Auto(_) => "auto",
+        }
+    }
+
+    /// The tree that it traces, if it is one of the trees.
+    pub(crate) fn tree(&self) -> Option<Options> {
+        match self {
+            Self::Tree(options) => Some(*options),
+            #[cfg(feature = "harness")]
+            Self::Listed(setting) => setting.technique.tree(),
+            #[cfg(feature = "harness")]
+            Self::Auto(_) => None,
+        }
+    }
+
+    /// A renderer without a scene. It counts its work or, as when timing, does not. `None` for `auto`,
+    /// which has to see the view first.
+    pub(crate) fn renderer(&self, counting: bool) -> Option<Box<dyn IsoRenderer>> {
+        match self {
+            Self::Tree(options) => {
+                let (name, trace) = (tree_name(options.kind()), TraceOptions::DEFAULT);
+                Some(Box::new(fbvh::gpu::Renderer::new(name, *options, trace, counting)))
+            }
+            #[cfg(feature = "harness")]
+            Self::Listed(setting) => Some(setting.renderer(counting)),
+            #[cfg(feature = "harness")]
+            Self::Auto(_) => None,
+        }
+    }
+
+    /// What drew, as names and texts.
+    pub(crate) fn account(&self) -> Vec<(&'static str, String)> {
+        let paper = match self {
+            Self::Tree(options) => tree_paper(options.kind()),
+            #[cfg(feature = "harness")]
+            Self::Listed(setting) => setting.method.paper,
+            #[cfg(feature = "harness")]
+            Self::Auto(_) => "",
+        };
+        vec![("method", format!("{} ({paper})", self.name()))]
+    }
+}
+
+fn tree_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::ModifiedBvh => "bvh",
+        Kind::Fitted => "fbvh",
+        Kind::Certified => "fbvh-certified",
+    }
+}
+
+fn tree_paper(kind: Kind) -> &'static str {
+    match kind {
+        Kind::ModifiedBvh => "Gourmel et al. 2010, section 4",
+        Kind::Fitted => "Gourmel et al. 2010, section 5",
+        Kind::Certified => "not published: exact ranges in the place of the paper's assumption",
+    }
+}

@@ -1,0 +1,263 @@
+//! The shared pictures, made on the CPU where there is no adapter: the formulas of
+//! `shaders/wgsl/shade`, line by line.
+
+use glam::Vec3;
+use metaball_core::{
+    Camera, Color, Hit, Image, Picture, Ray, Scene, Shaded, ValueRange, Verdict, View,
+};
+use rayon::prelude::*;
+
+use crate::Error;
+
+/// The material of scenes without colours, in linear light.
+const WHITE: Vec3 = Vec3::new(0.80, 0.78, 0.74);
+/// A pixel that is undecided.
+const ALARM: Vec3 = Vec3::new(1.0, 0.0, 0.6);
+
+/// A picture that needs no adapter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CpuPicture {
+    /// [`Picture::Phong`].
+    Phong,
+    /// [`Picture::Normal`].
+    Normal,
+    /// [`Picture::Depth`].
+    Depth,
+    /// [`Picture::Color`].
+    Color,
+}
+
+impl CpuPicture {
+    /// What there is, for those who asked for something else.
+    pub(crate) const CHOICE: &str = "the CPU shades phong, normal, depth and color";
+
+    /// That picture, unless only an adapter draws it.
+    pub(crate) fn of(picture: Picture) -> Result<Self, Error> {
+        Ok(match picture {
+            Picture::Phong => Self::Phong,
+            Picture::Normal => Self::Normal,
+            Picture::Depth => Self::Depth,
+            Picture::Color => Self::Color,
+            Picture::Spheres | Picture::Work(_) => {
+                return Err(Error::NeedsAdapter {
+                    what: format!("picture {picture:?}"),
+                    instead: Self::CHOICE.to_owned(),
+                });
+            }
+        })
+    }
+}
+
+/// The picture of hits, each found along its ray of the view; both row by row from the top left.
+pub(crate) fn draw(
+    scene: &Scene,
+    view: &View,
+    rays: &[Ray],
+    hits: &[Hit],
+    picture: CpuPicture,
+) -> Shaded {
+    let camera = view.camera();
+    let range = (picture == CpuPicture::Depth).then(|| depths(hits));
+    let scale = range.unwrap_or_default();
+    let colors = Colors::new(scene);
+    let surface = |ray: &Ray, hit: &Hit| match (picture, hit.verdict) {
+        (CpuPicture::Color, _) => colors.at(ray, hit),
+        (_, Verdict::Inside) => 0.25 * colors.at(ray, hit),
+        _ => phong(camera, colors.at(ray, hit), hit.normal, -ray.direction),
+    };
+    let light = |row, ray: &Ray, hit: &Hit| match hit.verdict {
+        Verdict::Miss => background(row, view.height()),
+        Verdict::Hit | Verdict::Inside => surface(ray, hit),
+        Verdict::Undecided => ALARM,
+    };
+    let pixel = |(index, (ray, hit)): (usize, (&Ray, &Hit))| {
+        bytes(match picture {
+            CpuPicture::Phong | CpuPicture::Color => {
+                encode(light(index as u32 / view.width(), ray, hit))
+            }
+            CpuPicture::Normal => normal(camera, hit),
+            CpuPicture::Depth => grey(hit, scale),
+        })
+    };
+    let pixels: Vec<[u8; 4]> = rays.par_iter().zip(hits).enumerate().map(pixel).collect();
+    let rgba = pixels.into_flattened();
+    Shaded { image: Image { width: view.width(), height: view.height(), rgba }, range }
+}
+
+/// Phong's model with a warm key light over the left shoulder, a cool fill light from the right, and
+/// ambient light that is brighter from above.
+fn phong(camera: &Camera, base: Vec3, normal: Vec3, toward_eye: Vec3) -> Vec3 {
+    let (right, up, forward) = (camera.right(), camera.up(), camera.forward());
+    let key = (0.8 * up - 0.6 * right - 0.9 * forward).normalize();
+    let fill = (0.9 * right - 0.1 * up - 0.5 * forward).normalize();
+    let key_light = 0.85 * Vec3::new(1.0, 0.97, 0.92) * normal.dot(key).max(0.0);
+    let fill_light = 0.18 * Vec3::new(0.75, 0.85, 1.0) * normal.dot(fill).max(0.0);
+    let ambient =
+        Vec3::new(0.035, 0.033, 0.03).lerp(Vec3::new(0.11, 0.12, 0.14), 0.5 + 0.5 * normal.dot(up));
+    let mirrored = (-key).reflect(normal).dot(toward_eye).max(0.0);
+    base * (key_light + fill_light + ambient) + 0.22 * mirrored.powf(48.0)
+}
+
+/// Behind everything: a gradient down the picture.
+fn background(row: u32, height: u32) -> Vec3 {
+    let down = (row as f32 + 0.5) / height as f32;
+    Vec3::new(0.035, 0.045, 0.065).lerp(Vec3::new(0.17, 0.19, 0.22), down)
+}
+
+/// Red to the right, green upwards, blue towards the eye; black for none.
+fn normal(camera: &Camera, hit: &Hit) -> Vec3 {
+    if !hit.is_hit() {
+        return Vec3::ZERO;
+    }
+    let axes = [camera.right(), camera.up(), -camera.forward()];
+    0.5 + 0.5 * Vec3::from(axes.map(|axis| hit.normal.dot(axis)))
+}
+
+/// White at the near end of the scale, dark at the far end, black for none.
+fn grey(hit: &Hit, scale: ValueRange) -> Vec3 {
+    if !hit.is_hit() {
+        return Vec3::ZERO;
+    }
+    let share = (hit.t - scale.low) / (scale.high - scale.low).max(1e-30);
+    Vec3::splat(1.0 - 0.85 * share.clamp(0.0, 1.0))
+}
+
+/// Distances of the nearest and the farthest hit; 0 and 0 where there is none.
+fn depths(hits: &[Hit]) -> ValueRange {
+    let depths = || hits.iter().filter(|hit| hit.is_hit()).map(|hit| hit.t);
+    ValueRange {
+        low: depths().reduce(f32::min).unwrap_or(0.0),
+        high: depths().reduce(f32::max).unwrap_or(0.0),
+    }
+}
+
+/// A coloured scene's balls, sorted to find those around a point.
+struct Colors<'a> {
+    scene: &'a Scene,
+    /// Balls by the x of their centres; empty in a scene without colours.
+    along_x: Vec<usize>,
+    /// The largest support radius.
+    reach: f32,
+}
+
+impl<'a> Colors<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let supports = scene.supports();
+        let balls = if scene.colors().is_some() { scene.len() } else { 0 };
+        let mut along_x: Vec<_> = (0..balls).collect();
+        along_x.sort_by(|&a, &b| supports[a].center.x.total_cmp(&supports[b].center.x));
+        let reach = supports.iter().map(|ball| ball.radius).fold(0.0, f32::max);
+        Self { scene, along_x, reach }
+    }
+
+    /// The surface's own colour in linear light: each ball's counts by its share of the field.
+    fn at(&self, ray: &Ray, hit: &Hit) -> Vec3 {
+        let Some(colors) = self.scene.colors() else { return WHITE };
+        let supports = self.scene.supports();
+        let point = ray.origin + hit.t * ray.direction;
+        let x = |&ball: &usize| supports[ball].center.x;
+        let first = self.along_x.partition_point(|ball| x(ball) < point.x - self.reach);
+        let end = self.along_x.partition_point(|ball| x(ball) <= point.x + self.reach);
+
+        let mut blended = Vec3::ZERO;
+        let mut total = 0.0;
+        for &ball in &self.along_x[first..end] {
+            let support = supports[ball];
+            let depth =
+                1.0 - point.distance_squared(support.center) / (support.radius * support.radius);
+            if depth > 0.0 {
+                let strength = self.scene.strengths().map_or(1.0, |strengths| strengths[ball]);
+                let weight = strength * self.scene.kernel().value_at_depth(depth);
+                blended += weight * decode(colors[ball]);
+                total += weight;
+            }
+        }
+        // Methods store what they blend in eight bits before it is lit.
+        decode_bytes(bytes(encode(blended / f32::max(total, 1e-30))))
+    }
+}
+
+fn decode(color: Color) -> Vec3 {
+    let [red, green, blue] = color.to_srgb();
+    decode_bytes([red, green, blue, 255])
+}
+
+/// Linear light from encoded channels (IEC 61966-2-1).
+fn decode_bytes([red, green, blue, _]: [u8; 4]) -> Vec3 {
+    Vec3::from([red, green, blue].map(|byte| {
+        let encoded = f32::from(byte) / 255.0;
+        if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+    }))
+}
+
+/// Encoded channels from linear light, clamped to \[0, 1\].
+fn encode(linear: Vec3) -> Vec3 {
+    Vec3::from(linear.to_array().map(|light| {
+        let light = light.clamp(0.0, 1.0);
+        if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+    }))
+}
+
+/// A pixel as it is stored: WGSL's `pack4x8unorm`.
+fn bytes(encoded: Vec3) -> [u8; 4] {
+    let [red, green, blue] =
+        encoded.to_array().map(|channel| (0.5 + 255.0 * channel.clamp(0.0, 1.0)).floor() as u8);
+    [red, green, blue, 255]
+}
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::{Overrides, load};
+    use fbvh::{Options, TraceOptions};
+    use metaball_core::WorkKind;
+    use metaball_core::gpu::{self, Gpu, IsoRenderer, Shading, Targets};
+
+    use super::*;
+
+    /// Hits of the same frame under both shadings. WGSL lets `pow` err by 16 units in the last place
+    /// of the logarithm it goes through, 1e-5 of a channel here, which moves a value by at most one
+    /// step where it lies beside a rounding boundary. Blended colours go through two roundings.
+    #[test]
+    fn both_shadings_agree() {
+        let Some(gpu) = Gpu::for_test() else { return };
+        for (name, steps) in [("strengths-100", 1), ("colors-100", 2), ("eye-inside-surface", 1)] {
+            let bench = load(name, &Overrides::default()).expect("known");
+            let scene = &bench.scene;
+            let view = View::new(bench.camera, 64, 48).expect("a size");
+            let targets =
+                Targets::new(&gpu, 64, 48, scene.colors().is_some(), false).expect("room");
+            let mut renderer =
+                fbvh::gpu::Renderer::new("fbvh", Options::fitted(), TraceOptions::DEFAULT, false);
+            renderer.build(&gpu, scene).expect("built");
+            gpu::render(&gpu, &mut renderer, &targets, &view).expect("drawn");
+            let rays = targets.read_rays(&gpu, &view).expect("read");
+            let hits = targets.read_hits(&gpu).expect("read");
+            for picture in [Picture::Phong, Picture::Normal, Picture::Depth, Picture::Color] {
+                let wanted =
+                    Shading::new(&gpu).draw(&targets, &view, scene, picture).expect("shaded");
+                let on_cpu = CpuPicture::of(picture).expect("needs no adapter");
+                let found = draw(scene, &view, &rays, &hits, on_cpu);
+                assert_eq!(found.range, wanted.range);
+                let bytes = found.image.rgba.iter().zip(&wanted.image.rgba);
+                let worst = bytes.map(|(found, wanted)| found.abs_diff(*wanted)).max();
+                assert!(worst <= Some(steps), "{name}, {picture:?}: {worst:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_needs_an_adapter_says_so() {
+        for picture in [Picture::Spheres, Picture::Work(WorkKind::Balls)] {
+            let error = CpuPicture::of(picture).expect_err("no");
+            assert!(error.to_string().contains("needs a graphics adapter"), "{error}");
+        }
+    }
+
+    #[test]
+    fn srgb_goes_both_ways() {
+        for byte in 0..=255 {
+            let gray = decode_bytes([byte, byte, byte, 255]);
+            assert_eq!(bytes(encode(gray)), [byte, byte, byte, 255]);
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Another camera than the scene's own.
+
+use glam::Vec3;
+use metaball_core::{Camera, CameraError};
+
+/// Where a picture is seen from; what is left out is as the scene's own camera has it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Viewpoint {
+    /// The eye, world space. Alone it looks at the middle of the scene.
+    pub eye: Option<Vec3>,
+    /// What it looks at, world space.
+    pub look_at: Option<Vec3>,
+    /// What is up in the picture; the y axis for another eye or direction.
+    pub up: Option<Vec3>,
+    /// Degrees from the bottom of the picture to its top.
+    pub fov: Option<f32>,
+}
+
+impl Viewpoint {
+    /// Whether it is any other than the scene's own.
+    pub fn is_asked(&self) -> bool {
+        *self != Self::default()
+    }
+
+    /// The camera of a scene that has one of its own and this middle.
+    ///
+    /// # Errors
+    /// When the parts make no camera.
+    pub fn camera(&self, own: &Camera, middle: Vec3) -> Result<Camera, CameraError> {
+        if !self.is_asked() {
+            return Ok(*own);
+        }
+        let eye = self.eye.unwrap_or(own.eye());
+        let ahead = if self.eye.is_some() { middle } else { eye + own.forward() };
+        let turns = self.eye.is_some() || self.look_at.is_some();
+        let up = self.up.unwrap_or(if turns { Vec3::Y } else { own.up() });
+        let degrees = self.fov.unwrap_or(2.0 * own.half_height().atan().to_degrees());
+        Camera::look_at(eye, self.look_at.unwrap_or(ahead), up, degrees)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_is_the_scenes_own() {
+        let own = Camera::look_at(Vec3::Z, Vec3::ZERO, Vec3::X, 30.0).expect("legal");
+        let camera = |viewpoint: Viewpoint| viewpoint.camera(&own, Vec3::Y);
+        assert_eq!(camera(Viewpoint::default()), Ok(own));
+        let near = camera(Viewpoint { fov: Some(10.0), ..Default::default() });
+        let near = near.expect("a camera");
+        assert_eq!((near.eye(), near.up()), (own.eye(), own.up()));
+        assert!(near.half_height() < 0.5 * own.half_height());
+        let moved = camera(Viewpoint { eye: Some(Vec3::X), ..Default::default() });
+        let moved = moved.expect("a camera");
+        assert!((moved.forward() - (Vec3::Y - Vec3::X).normalize()).length() < 1e-6);
+        assert!((moved.half_height() - own.half_height()).abs() < 1e-6);
+        let within = Viewpoint { look_at: Some(Vec3::Z), ..Default::default() };
+        assert!(camera(within).is_err());
+    }
+}
