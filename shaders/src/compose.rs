@@ -92,22 +92,22 @@ fn capabilities() -> naga::valid::Capabilities {
     Capabilities::default() | Capabilities::EARLY_DEPTH_TEST | Capabilities::PRIMITIVE_INDEX
 }
 
-/// The modules that this variant can import, with their import paths. Where the variant chooses one
-/// provider of a path, the others are left out.
-fn providers(variant: &Variant) -> Vec<(&'static str, &'static Module)> {
+/// The modules that can be imported under this variant, with their import paths. Where it chooses an
+/// implementation of an interface, the others are left out.
+fn providers(variant: &Variant) -> Vec<(String, &'static Module)> {
     let chosen = variant.modules();
-    let importable = || MODULES.iter().filter_map(|module| Some((module.import_path()?, module)));
+    let importable = MODULES.iter().filter(|module| !module.is_entry);
+    let mut providers: Vec<_> = importable.map(|module| (module.import_path(), module)).collect();
     let is_chosen = |module: &Module| chosen.contains(&module.name);
     let chosen_paths: HashSet<_> =
-        importable().filter(|(_, module)| is_chosen(module)).map(|(path, _)| path).collect();
-    importable()
-        .filter(|(path, module)| is_chosen(module) || !chosen_paths.contains(path))
-        .collect()
+        MODULES.iter().filter(|module| is_chosen(module)).map(Module::import_path).collect();
+    providers.retain(|(path, module)| is_chosen(module) || !chosen_paths.contains(path));
+    providers
 }
 
 struct Composition {
     composer: Composer,
-    providers: Vec<(&'static str, &'static Module)>,
+    providers: Vec<(String, &'static Module)>,
     added: HashSet<&'static str>,
     open: Vec<&'static str>,
 }
@@ -127,6 +127,7 @@ impl Composition {
                 let descriptor = ComposableModuleDescriptor {
                     source: provider.source,
                     file_path: &file_path(provider),
+                    as_name: Some(provider.import_path()),
                     ..ComposableModuleDescriptor::default()
                 };
                 if let Err(error) = self.composer.add_composable_module(descriptor) {
@@ -148,7 +149,7 @@ impl Composition {
             .iter()
             .filter(|(path, _)| {
                 import
-                    .strip_prefix(path)
+                    .strip_prefix(path.as_str())
                     .is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
             })
             .map(|(_, module)| *module)

@@ -1,21 +1,11 @@
 //! The WGSL modules of the metaball ray casters, and their composition into naga modules. No GPU API.
 //!
-//! The files under `wgsl/` are WGSL with two directives of naga_oil: `#define_import_path` names a
-//! module for others, `#import` takes it or items of it. There is no `#ifdef` and no template.
-//! Numbers vary by `override` constants with an `@id`, since composition changes names; ids below 16
-//! belong to the shared modules. Code varies by modules with the same import path and the same
-//! functions, one of which a [`Variant`] chooses:
-//!
-//! | import path | modules | chosen by |
-//! | --- | --- | --- |
-//! | `metaball::kernel` | `kernel/power`, `kernel/wyvill`, `kernel/perlin`, `kernel/any` | [`Variant::kernel`] |
-//! | `metaball::exponent` | `exponent/compiled`, `exponent/read` | [`Variant::kernel`] |
-//! | `metaball::support` | `support/uniform`, `support/varied` | [`Variant::radii`] |
-//! | `metaball::strength` | `strength/unit`, `strength/varied` | [`Variant::strengths`] |
-//! | `metaball::color` | `color/none`, `color/blended` | [`Variant::colors`] |
-//! | `metaball::base` | `shade/base_white`, `shade/base_blended` | [`Variant::colors`] |
-//! | `metaball::work` | `work/off`, `work/counted` | [`Variant::counting`] |
-//! | others | such as `opaque/none`, `opaque/image` | [`Variant::chosen`] |
+//! The files under `wgsl/` are WGSL with one directive of naga_oil: `#import` takes a module, or items of
+//! it. A module's import path is its file's path, so `core/view.wgsl` is imported as `core::view`. There
+//! is no `#ifdef` and no template. Numbers vary by `override` constants with an `@id`, since composition
+//! changes names; ids below 16 belong to the shared modules. Code varies by *interfaces*: a folder of
+//! modules that all declare the same ([`INTERFACES`]) and are imported by the folder's path. A [`Variant`]
+//! chooses one of them.
 //!
 //! What no entry point reaches is left out: a binding that a variant does not use does not exist.
 //!
@@ -39,12 +29,14 @@
 //! ```
 
 mod compose;
+mod interfaces;
 mod layout;
 mod modules;
 mod size;
 mod variant;
 
 pub use compose::{ComposeError, compose, compose_module};
+pub use interfaces::{INTERFACES, Interface};
 pub use layout::{StructLayout, struct_layout};
 pub use modules::{MODULES, Module};
 pub use naga;

@@ -1,5 +1,7 @@
 //! The table of modules. A new WGSL file is one line here.
 
+use crate::interfaces::INTERFACES;
+
 /// A WGSL file.
 #[derive(Debug, Clone, Copy)]
 pub struct Module {
@@ -12,18 +14,18 @@ pub struct Module {
 }
 
 impl Module {
-    /// The path by which others import this module, if they can.
-    pub(crate) fn import_path(&self) -> Option<&'static str> {
-        self.directives("#define_import_path ").next()
+    /// The path by which others import this module: that of its file, such as `core::view`. What
+    /// implements an [`Interface`](crate::Interface) is imported as that: by the path of its folder.
+    pub fn import_path(&self) -> String {
+        let folder = self.name.rsplit_once('/').map(|(folder, _)| folder);
+        let interface = INTERFACES.iter().find(|interface| Some(interface.folder) == folder);
+        interface.map_or(self.name, |interface| interface.folder).replace('/', "::")
     }
 
     /// What the module imports: the path of a module, or of an item in one.
     pub(crate) fn imports(&self) -> impl Iterator<Item = &'static str> {
-        self.directives("#import ").map(|path| path.split("::{").next().unwrap_or(path))
-    }
-
-    fn directives(&self, keyword: &'static str) -> impl Iterator<Item = &'static str> {
-        self.source.lines().filter_map(move |line| line.strip_prefix(keyword)).map(str::trim)
+        let directives = self.source.lines().filter_map(|line| line.strip_prefix("#import "));
+        directives.map(|path| path.split("::{").next().unwrap_or(path).trim())
     }
 }
 
@@ -49,28 +51,28 @@ macro_rules! import {
     };
 }
 
-/// Every module. Where several define one import path, a [`Variant`](crate::Variant) chooses.
+/// Every module. Of those that implement an [`Interface`](crate::Interface) a
+/// [`Variant`](crate::Variant) chooses one.
 pub const MODULES: &[Module] = &[
+    // What all methods share.
     import!("core/view"),
     import!("core/make_ray"),
     entry!("core/rays"),
-    import!("opaque/none"),
-    import!("opaque/image"),
-    import!("ray/record"),
-    import!("ray/listed"),
-    entry!("ray/list"),
-    import!("ray/primary"),
-    import!("ray/free"),
     import!("core/hit"),
     import!("core/status"),
     import!("core/scene"),
+    import!("core/kernel_read"),
+    import!("core/powers"),
     import!("core/field"),
     import!("core/cover"),
     import!("core/beside"),
+    import!("core/srgb"),
+    import!("core/color_record"),
+    import!("core/work_record"),
+    import!("opaque/none"),
+    import!("opaque/image"),
     import!("exponent/compiled"),
     import!("exponent/read"),
-    import!("kernel/read"),
-    import!("kernel/powers"),
     import!("kernel/power"),
     import!("kernel/wyvill"),
     import!("kernel/perlin"),
@@ -79,89 +81,97 @@ pub const MODULES: &[Module] = &[
     import!("support/varied"),
     import!("strength/unit"),
     import!("strength/varied"),
-    import!("color/srgb"),
-    import!("color/record"),
     import!("color/none"),
     import!("color/blended"),
-    import!("work/record"),
     import!("work/off"),
     import!("work/counted"),
+    // Arbitrary rays.
+    import!("batch/free_ray"),
+    import!("batch/list"),
+    entry!("batch/list_rays"),
+    import!("ray/primary"),
+    import!("ray/free"),
+    // Pictures of hits.
     import!("shade/picture"),
     import!("shade/light"),
-    import!("shade/base_white"),
-    import!("shade/base_blended"),
+    import!("shade/base/white"),
+    import!("shade/base/blended"),
     entry!("shade/phong"),
     entry!("shade/color"),
     entry!("shade/normal"),
     entry!("shade/depth"),
     entry!("shade/work"),
     entry!("shade/spheres"),
+    // The crate metaball-light.
     import!("light/path"),
     import!("light/sampling"),
-    import!("light/sky"),
-    import!("light/image"),
+    import!("light/environment/sky"),
+    import!("light/environment/image"),
     import!("light/floor"),
     import!("light/scatter"),
     entry!("light/start"),
     entry!("light/surface"),
     entry!("light/shadow"),
     entry!("light/add_sample"),
+    // The crate fbvh.
     import!("fbvh/structure"),
     import!("fbvh/suspend"),
-    import!("fbvh/leaf"),
-    import!("fbvh/local"),
+    import!("fbvh/relative_ray"),
     import!("fbvh/projection"),
-    import!("fbvh/nearby"),
+    import!("fbvh/near_balls"),
     import!("fbvh/bounds"),
-    import!("fbvh/rises"),
-    import!("fbvh/falls"),
-    import!("fbvh/outlook"),
-    import!("fbvh/quartic"),
-    import!("fbvh/no_look"),
-    import!("fbvh/certified_leaf"),
+    import!("fbvh/excess/entry"),
+    import!("fbvh/excess/exit"),
+    import!("fbvh/test_result"),
+    import!("fbvh/polynomial_test/quartic"),
+    import!("fbvh/polynomial_test/none"),
+    import!("fbvh/leaf/published"),
+    import!("fbvh/leaf/certified"),
     entry!("fbvh/trace"),
+    // The crate illes-fraglist.
     import!("illes_fraglist/balls"),
     import!("illes_fraglist/lists"),
     import!("illes_fraglist/budget"),
     import!("illes_fraglist/order"),
     import!("illes_fraglist/records"),
     import!("illes_fraglist/active"),
-    import!("illes_fraglist/cubic"),
+    import!("illes_fraglist/cubic_root"),
     import!("illes_fraglist/polynomial"),
-    import!("illes_fraglist/bernstein"),
-    import!("illes_fraglist/rebuilt"),
-    import!("illes_fraglist/absolute"),
-    import!("illes_fraglist/exact"),
-    import!("illes_fraglist/crowd_printed"),
-    import!("illes_fraglist/crowd_searched"),
+    import!("illes_fraglist/polynomial_root"),
+    import!("illes_fraglist/piece/cubic"),
+    import!("illes_fraglist/piece/absolute_cubic"),
+    import!("illes_fraglist/piece/exact"),
+    import!("illes_fraglist/overlap/printed"),
+    import!("illes_fraglist/overlap/searched"),
+    import!("illes_fraglist/prefix"),
+    import!("illes_fraglist/tiles"),
+    entry!("illes_fraglist/radix"),
     entry!("illes_fraglist/cores"),
     entry!("illes_fraglist/gather"),
-    import!("illes_fraglist/prefix"),
-    entry!("illes_fraglist/radix"),
-    import!("illes_fraglist/tiles"),
     entry!("illes_fraglist/bin"),
     entry!("illes_fraglist/collect"),
     entry!("illes_fraglist/cast"),
+    // The crate kanamori-peel.
     import!("kanamori_peel/frame"),
     import!("kanamori_peel/chord"),
     import!("kanamori_peel/placed"),
     import!("kanamori_peel/tiles"),
-    import!("kanamori_peel/outline_rectangle"),
-    import!("kanamori_peel/outline_tessellation"),
+    import!("kanamori_peel/outline/rectangle"),
+    import!("kanamori_peel/outline/tessellation"),
     import!("kanamori_peel/arranged"),
+    import!("kanamori_peel/bernstein/power"),
+    import!("kanamori_peel/bernstein/quartic"),
+    import!("kanamori_peel/bernstein/wyvill"),
+    import!("kanamori_peel/bezier"),
+    import!("kanamori_peel/clipping/short_stack"),
+    import!("kanamori_peel/clipping/iterative"),
+    import!("kanamori_peel/clipping/original"),
+    import!("kanamori_peel/list"),
     entry!("kanamori_peel/arrange"),
     entry!("kanamori_peel/register"),
     entry!("kanamori_peel/turn"),
     entry!("kanamori_peel/kernels"),
     entry!("kanamori_peel/peel"),
-    import!("kanamori_peel/power"),
-    import!("kanamori_peel/quartic"),
-    import!("kanamori_peel/wyvill"),
-    import!("kanamori_peel/bezier"),
-    import!("kanamori_peel/clipping_short_stack"),
-    import!("kanamori_peel/clipping_iterative"),
-    import!("kanamori_peel/clipping_original"),
-    import!("kanamori_peel/list"),
     entry!("kanamori_peel/test"),
     import!("kanamori_robust/lists"),
     entry!("kanamori_robust/register"),

@@ -1,4 +1,4 @@
-//! Which of several modules with one import path a shader is made of.
+//! What a shader is specialised for: which implementation of each interface it is made of.
 
 /// What a shader knows of the kernel when it is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -43,8 +43,7 @@ pub struct Variant {
     pub colors: bool,
     /// Whether work is counted.
     pub counting: bool,
-    /// Names of further modules to be preferred where several define one import path: the choices
-    /// of a method.
+    /// Names of the modules that implement the interfaces of a method, such as `fbvh/leaf/certified`.
     pub chosen: &'static [&'static str],
 }
 
@@ -90,7 +89,7 @@ impl Variant {
             either(self.radii, "support/varied", "support/uniform"),
             either(self.strengths, "strength/varied", "strength/unit"),
             either(self.colors, "color/blended", "color/none"),
-            either(self.colors, "shade/base_blended", "shade/base_white"),
+            either(self.colors, "shade/base/blended", "shade/base/white"),
             either(self.counting, "work/counted", "work/off"),
         ];
         modules.extend(self.chosen);

@@ -3,69 +3,60 @@
 use std::collections::{BTreeMap, HashSet};
 
 use metaball_shaders::{
-    ComposeError, KernelModule, MODULES, Module, Variant, code_size, compose, compose_module,
-    struct_layout,
+    ComposeError, INTERFACES, Interface, KernelModule, MODULES, Module, Variant, code_size,
+    compose, compose_module, struct_layout,
 };
 
-/// What stands behind a directive in a module's lines.
-fn directives(module: &Module, keyword: &str) -> impl Iterator<Item = &'static str> {
-    module.source.lines().filter_map(move |line| line.strip_prefix(keyword)).map(str::trim)
+/// The modules that an interface's folder holds.
+fn implementations(interface: &Interface) -> Vec<&'static Module> {
+    let folder_of = |module: &Module| module.name.rsplit_once('/').expect("a folder").0;
+    MODULES.iter().filter(|module| folder_of(module) == interface.folder).collect()
 }
 
-fn import_path(module: &Module) -> Option<&'static str> {
-    directives(module, "#define_import_path ").next()
-}
-
-/// Import paths of everything that a module can be composed of, whatever is chosen.
+/// Folders of the interfaces that a module can be composed of, whatever is chosen.
 fn reached(module: &'static Module) -> HashSet<&'static str> {
-    let mut paths = HashSet::new();
     let mut names = HashSet::new();
     let mut open = vec![module];
     while let Some(importer) = open.pop() {
-        for import in directives(importer, "#import ") {
+        for import in importer.source.lines().filter_map(|line| line.strip_prefix("#import ")) {
             for provider in MODULES {
                 // An import names a module, an item of it or a list of items.
-                let rest = import_path(provider).and_then(|path| import.strip_prefix(path));
+                let rest = import.strip_prefix(provider.import_path().as_str());
                 let provides = rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("::"));
                 if provides && names.insert(provider.name) {
-                    paths.extend(import_path(provider));
                     open.push(provider);
                 }
             }
         }
     }
-    paths
+    let is_reached = |interface: &&Interface| {
+        implementations(interface).iter().any(|it| names.contains(it.name))
+    };
+    INTERFACES.iter().filter(is_reached).map(|interface| interface.folder).collect()
 }
 
-/// Modules that a pipeline chooses by name, by the import path they share.
+/// Names of the modules that a pipeline chooses from, by the interface's folder.
 fn choices() -> BTreeMap<&'static str, Vec<&'static str>> {
-    let mut by_path: BTreeMap<_, Vec<_>> = BTreeMap::new();
-    for module in MODULES {
-        if let Some(path) = import_path(module) {
-            by_path.entry(path).or_default().push(module.name);
-        }
-    }
-    by_path.retain(|path, modules| modules.len() > 1 && !BY_VARIANT.contains(path));
-    by_path
+    INTERFACES
+        .iter()
+        .filter(|interface| !BY_VARIANT.contains(&interface.folder))
+        .map(|interface| {
+            let modules = implementations(interface);
+            (interface.folder, modules.iter().map(|module| module.name).collect())
+        })
+        .collect()
 }
 
-/// Import paths that the fields of a variant choose for.
-const BY_VARIANT: [&str; 7] = [
-    "metaball::kernel",
-    "metaball::exponent",
-    "metaball::support",
-    "metaball::strength",
-    "metaball::color",
-    "metaball::base",
-    "metaball::work",
-];
+/// Interfaces that the fields of a variant choose for.
+const BY_VARIANT: [&str; 7] =
+    ["kernel", "exponent", "support", "strength", "color", "shade/base", "work"];
 
 /// Every variant that makes a difference to a module: with the first of all choices, and with each
 /// other choice in turn. A choice for which the module reaches nothing stays as it is.
 fn variants(module: &'static Module) -> Vec<Variant> {
     let reached = reached(module);
     let mut alternatives = choices();
-    alternatives.retain(|path, _| reached.contains(path));
+    alternatives.retain(|interface, _| reached.contains(interface));
     let first: Vec<_> = alternatives.values().map(|modules| modules[0]).collect();
     let mut combinations = vec![first.clone()];
     for (index, modules) in alternatives.values().enumerate() {
@@ -78,7 +69,7 @@ fn variants(module: &'static Module) -> Vec<Variant> {
     let chosen: Vec<&'static [&'static str]> =
         combinations.into_iter().map(|chosen| &*chosen.leak()).collect();
     let [kernel, exponent, support, strength, color, base, work] =
-        BY_VARIANT.map(|path| reached.contains(path));
+        BY_VARIANT.map(|interface| reached.contains(interface));
     let mut telling = Vec::new();
     for variant in Variant::trials() {
         let same_here = Variant {
@@ -150,7 +141,7 @@ fn variants_bind_what_they_need() {
         strengths: false,
         colors: false,
         counting: false,
-        chosen: &["kanamori_peel/quartic", "kanamori_peel/clipping_short_stack"],
+        chosen: &["kanamori_peel/bernstein/quartic", "kanamori_peel/clipping/short_stack"],
     };
     let least_bindings = bindings("kanamori_peel/test", &least);
     let more = |variant: Variant| {
@@ -182,10 +173,15 @@ fn every_file_is_in_the_table_once() {
     assert_eq!(names.len(), MODULES.len());
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
     let mut files = HashSet::new();
-    for folder in std::fs::read_dir(&root).expect("wgsl folder") {
-        let folder = folder.expect("entry").path();
-        for file in std::fs::read_dir(&folder).expect("a folder of modules") {
-            let path = file.expect("entry").path().with_extension("");
+    let mut folders = vec![root.clone()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder of modules") {
+            let path = entry.expect("entry").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let path = path.with_extension("");
             let name = path.strip_prefix(&root).expect("below the root");
             files.insert(name.to_str().expect("UTF-8").replace('\\', "/"));
         }
@@ -198,10 +194,48 @@ fn wgsl_stays_wgsl() {
     for Module { name, source, .. } in MODULES {
         let directives = source.lines().filter(|line| line.starts_with('#'));
         for line in directives {
-            let known = line.starts_with("#import ") || line.starts_with("#define_import_path ");
-            assert!(known, "{name}: {line}");
+            assert!(line.starts_with("#import "), "{name}: {line}");
         }
     }
+}
+
+/// A declaration on one line, whatever lines it was broken into.
+fn on_one_line(text: &str) -> String {
+    let words: Vec<_> = text.split_whitespace().collect();
+    words.join(" ").replace("( ", "(").replace(", )", ")")
+}
+
+/// Every file of an interface declares what the table says, and a folder is either an interface, with a
+/// choice of files, or a place for modules of their own.
+#[test]
+fn files_of_an_interface_declare_what_it_says() {
+    for interface in INTERFACES {
+        let modules = implementations(interface);
+        assert!(modules.len() > 1, "{}: no choice", interface.folder);
+        assert!(interface.declared().next().is_some(), "{}: says nothing", interface.folder);
+        for module in modules {
+            let source = on_one_line(module.source);
+            for declaration in interface.declared() {
+                assert!(source.contains(declaration), "{}: no {declaration}", module.name);
+            }
+        }
+        let below = format!("{}/", interface.folder);
+        let is_deeper =
+            |name: &str| name.strip_prefix(&below).is_some_and(|rest| rest.contains('/'));
+        assert!(!MODULES.iter().any(|module| is_deeper(module.name)), "{below}: holds folders");
+    }
+}
+
+#[test]
+fn modules_are_imported_by_their_files_paths() {
+    let path = |name: &str| {
+        let module = MODULES.iter().find(|module| module.name == name).expect("in the table");
+        module.import_path()
+    };
+    assert_eq!(path("core/view"), "core::view");
+    assert_eq!(path("kernel/power"), "kernel");
+    assert_eq!(path("fbvh/leaf/certified"), "fbvh::leaf");
+    assert_eq!(path("fbvh/structure"), "fbvh::structure");
 }
 
 #[test]
@@ -240,13 +274,13 @@ fn errors_show_file_and_line() {
 
 #[test]
 fn imports_without_one_provider_are_named() {
-    let nobody = message("#import metaball::nobody\n");
+    let nobody = message("#import core::nobody\n");
     assert_eq!(
         nobody,
-        "shader module test/broken imports metaball::nobody: needed one module to provide it, \
+        "shader module test/broken imports core::nobody: needed one module to provide it, \
          found none"
     );
-    let unchosen = message("#import metaball::opaque::opaque_distance\n");
+    let unchosen = message("#import opaque::opaque_distance\n");
     assert!(unchosen.ends_with("found opaque/none and opaque/image"), "{unchosen}");
 }
 

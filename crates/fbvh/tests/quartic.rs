@@ -1,4 +1,4 @@
-//! The bounds of `fbvh/quartic.wgsl`, formed in f32 as the shader does, hold the field in f64.
+//! The bounds of `fbvh/polynomial_test/quartic.wgsl`, formed in f32 as the shader does, hold the field in f64.
 
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;

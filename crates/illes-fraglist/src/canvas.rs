@@ -207,7 +207,7 @@ mod tests {
             strengths: false,
             colors: false,
             counting: false,
-            chosen: &["illes_fraglist/rebuilt", "illes_fraglist/crowd_printed"],
+            chosen: &["illes_fraglist/piece/cubic", "illes_fraglist/overlap/printed"],
         };
         let module = compose("illes_fraglist/cast", &variant).expect("composes");
         assert_eq!(struct_layout(&module, "Node"), Some(host_layout!(Node { rank, next })));

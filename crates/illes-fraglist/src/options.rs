@@ -67,7 +67,7 @@ pub const TILE_CAPACITY: u32 = 120_000;
 
 /// How far behind the root of a piece a hit may be, in parts of the piece between two separators,
 /// which is no longer than a radius; rounding aside. The width at which the root finders of
-/// `illes_fraglist/cubic.wgsl` and `bernstein.wgsl` end.
+/// `illes_fraglist/cubic_root.wgsl` and `bernstein.wgsl` end.
 pub const ROOT_TOLERANCE: f64 = 4e-7;
 
 impl Options {
@@ -91,12 +91,12 @@ impl Default for Options {
 impl Piece {
     /// Names of the WGSL modules to choose.
     pub(crate) fn modules(self) -> &'static [&'static str] {
-        const PRINTED: &str = "illes_fraglist/crowd_printed";
+        const PRINTED: &str = "illes_fraglist/overlap/printed";
         match self {
-            Self::Cubic => &["illes_fraglist/rebuilt", PRINTED],
-            Self::AbsoluteCubic => &["illes_fraglist/absolute", PRINTED],
-            Self::Exact => &["illes_fraglist/exact", PRINTED],
-            Self::Robust => &["illes_fraglist/exact", "illes_fraglist/crowd_searched"],
+            Self::Cubic => &["illes_fraglist/piece/cubic", PRINTED],
+            Self::AbsoluteCubic => &["illes_fraglist/piece/absolute_cubic", PRINTED],
+            Self::Exact => &["illes_fraglist/piece/exact", PRINTED],
+            Self::Robust => &["illes_fraglist/piece/exact", "illes_fraglist/overlap/searched"],
         }
     }
 

@@ -57,9 +57,9 @@ pub(crate) fn searching(
     form: KernelForm,
     clipping: Clipping,
 ) -> Option<&'static [&'static str]> {
-    const SHORT_STACK: &str = "kanamori_peel/clipping_short_stack";
-    const ITERATIVE: &str = "kanamori_peel/clipping_iterative";
-    const ORIGINAL: &str = "kanamori_peel/clipping_original";
+    const SHORT_STACK: &str = "kanamori_peel/clipping/short_stack";
+    const ITERATIVE: &str = "kanamori_peel/clipping/iterative";
+    const ORIGINAL: &str = "kanamori_peel/clipping/original";
     macro_rules! with {
         ($form:literal) => {
             match clipping {
@@ -70,9 +70,11 @@ pub(crate) fn searching(
         };
     }
     match kernel {
-        Kernel::QUARTIC if form == KernelForm::Known => Some(with!("kanamori_peel/quartic")),
-        Kernel::Power(_) => Some(with!("kanamori_peel/power")),
-        Kernel::Wyvill => Some(with!("kanamori_peel/wyvill")),
+        Kernel::QUARTIC if form == KernelForm::Known => {
+            Some(with!("kanamori_peel/bernstein/quartic"))
+        }
+        Kernel::Power(_) => Some(with!("kanamori_peel/bernstein/power")),
+        Kernel::Wyvill => Some(with!("kanamori_peel/bernstein/wyvill")),
         Kernel::Perlin => None,
     }
 }
@@ -81,8 +83,8 @@ impl Outline {
     /// The WGSL module to choose.
     fn modules(self) -> &'static [&'static str] {
         match self {
-            Self::Rectangle => &["kanamori_peel/outline_rectangle"],
-            Self::Tessellation => &["kanamori_peel/outline_tessellation"],
+            Self::Rectangle => &["kanamori_peel/outline/rectangle"],
+            Self::Tessellation => &["kanamori_peel/outline/tessellation"],
         }
     }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use bytemuck::{Pod, Zeroable};
 
-/// What one pixel cost, 32 bytes: WGSL's `Work` of `shaders/wgsl/work/record.wgsl`. Exists only while
+/// What one pixel cost, 32 bytes: WGSL's `Work` of `shaders/wgsl/core/work_record.wgsl`. Exists only while
 /// counting.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]

@@ -45,8 +45,8 @@ impl Passes {
         let colors = targets.colors().is_some();
         let spec = Specialization { colors, ..Specialization::without_balls() };
         let spec = spec.choosing(match environment {
-            Environment::Sky => &["light/sky"],
-            Environment::Panorama(_) => &["light/image"],
+            Environment::Sky => &["light/environment/sky"],
+            Environment::Panorama(_) => &["light/environment/image"],
         });
         let layouts = layouts.each_ref();
         let pipeline = |module, entry| {

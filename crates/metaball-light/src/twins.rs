@@ -124,7 +124,7 @@ mod tests {
             strengths: false,
             colors: false,
             counting: false,
-            chosen: &["light/image"],
+            chosen: &["light/environment/image"],
         };
         let module = compose("light/surface", &variant).expect("composes");
         let twin = |name| struct_layout(&module, name).expect("used by the shader");

@@ -1,8 +1,7 @@
 // A scene with colours: each ball's counts by its share of the field. Blended in linear light.
-#define_import_path metaball::color
 
-#import metaball::color_record::color_of_pixel
-#import metaball::srgb::{decode, encode}
+#import core::color_record::color_of_pixel
+#import core::srgb::{decode, encode}
 
 // sRGB-encoded, as `Color` of metaball-core.
 @group(1) @binding(2) var<storage, read> ball_colors: array<u32>;

@@ -1,5 +1,4 @@
 // A scene without colours: blending is nothing.
-#define_import_path metaball::color
 
 fn blend_start() {}
 

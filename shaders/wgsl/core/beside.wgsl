@@ -5,9 +5,8 @@
 // c and the bulk of the eye lie on one coarse grid, so that their difference is exact; direction and
 // base are each cut into two numbers of twelve bits, so that their products are. There is no
 // compensation to be optimised away.
-#define_import_path metaball::beside
 
-#import metaball::view::{view, Ray}
+#import core::view::{view, Ray}
 
 const UNIT: f32 = 0x1p-23f;
 

@@ -1,8 +1,7 @@
 // Rectangles on the picture that cover spheres, for passes that rasterise balls: four vertices of a
 // strip, one instance a ball.
-#define_import_path metaball::cover
 
-#import metaball::view::view
+#import core::view::view
 
 // Parts of a pixel that a rectangle is widened by on each side: rasterisers round corners to 1/256.
 const PIXEL_MARGIN: f32 = 0.05;

@@ -2,10 +2,9 @@
 //
 // Offsets are formed as (eye - centre) + t * direction. The first difference has the size of the
 // distance between eye and ball; forming the point first would round at the size of the world.
-#define_import_path metaball::field
 
-#import metaball::kernel::{kernel, kernel_slope}
-#import metaball::strength::strength
+#import kernel::{kernel, kernel_slope}
+#import strength::strength
 
 // x - p for the point x at t on the ray; `eye_offset` is eye - p.
 fn offset_at(eye_offset: vec3<f32>, direction: vec3<f32>, t: f32) -> vec3<f32> {

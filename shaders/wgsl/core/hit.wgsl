@@ -1,5 +1,4 @@
 // What a method writes: one hit a pixel.
-#define_import_path metaball::hit
 
 // Twin of `PackedHit` in metaball-core.
 struct Hit {

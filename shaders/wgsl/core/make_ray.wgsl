@@ -1,7 +1,6 @@
 // Directions of primary rays.
-#define_import_path metaball::make_ray
 
-#import metaball::view::view
+#import core::view::view
 
 // The unit direction through the middle of the pixel at a column and row from the top left. Twice
 // the distance from the picture's middle is a whole number of pixels, so nothing cancels.

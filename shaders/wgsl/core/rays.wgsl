@@ -1,11 +1,11 @@
 // The first pass of every frame: the primary rays, and hits that nobody has found yet.
 
-#import metaball::view::{view, Ray, NO_LIMIT, in_picture, pixel_at}
-#import metaball::make_ray::direction_through
-#import metaball::hit::write_nothing
-#import metaball::opaque::opaque_distance
+#import core::view::{view, Ray, NO_LIMIT, in_picture, pixel_at}
+#import core::make_ray::direction_through
+#import core::hit::write_nothing
+#import opaque::opaque_distance
 
-// The buffer that methods read as `metaball::view::rays`.
+// The buffer that methods read as core::view::rays.
 @group(0) @binding(1) var<storage, read_write> made_rays: array<Ray>;
 
 @compute @workgroup_size(8, 8)

@@ -1,5 +1,4 @@
 // What every scene has: balls with support spheres, and a threshold.
-#define_import_path metaball::scene
 
 // Where a ball's field may be positive. Twin of `Support` in metaball-core.
 struct Support {

@@ -1,5 +1,4 @@
 // How a frame says that it is not whole.
-#define_import_path metaball::status
 
 // Twin of `FrameStatus` in metaball-core; zeros when the frame begins.
 struct Status {

@@ -1,5 +1,4 @@
 // The view of a frame, and its primary rays.
-#define_import_path metaball::view
 
 // Twin of `ViewUniform` in metaball-core. The camera's axes are unit vectors in world space.
 struct View {

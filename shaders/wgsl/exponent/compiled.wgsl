@@ -1,5 +1,4 @@
 // An exponent that the shader is compiled for.
-#define_import_path metaball::exponent
 
 // Id 0 of the ids that metaball-core sets.
 @id(0) override compiled_exponent: u32 = 2u;

@@ -1,7 +1,6 @@
 // An exponent that is read, as if the shader served all power kernels.
-#define_import_path metaball::exponent
 
-#import metaball::kernel_read::kernel_read
+#import core::kernel_read::kernel_read
 
 // alpha of a power kernel, from 1 to 8.
 fn exponent() -> u32 {

@@ -1,5 +1,4 @@
 // What a certified search knows of the excess on an interval of a ray: made by rises.wgsl and falls.wgsl.
-#define_import_path metaball::fbvh::bounds
 
 struct Bounds {
     // The excess is nowhere more than this.

@@ -1,11 +1,10 @@
 // A ball as a ray in a leaf sees it: where along the ray its centre is, how deep in its support the ray
 // runs, and how far rounding can move that. What all certified searches of a leaf share.
-#define_import_path metaball::fbvh::projection
 
-#import metaball::fbvh::local::{Frame, UNIT}
-#import metaball::kernel::{kernel_slope, steepest_slope}
-#import metaball::strength::strength
-#import metaball::support::support_of
+#import fbvh::relative_ray::{Frame, UNIT}
+#import kernel::{kernel_slope, steepest_slope}
+#import strength::strength
+#import support::support_of
 
 struct Projection {
     // The local t nearest to the centre, and the square of the ray's distance from the centre there.

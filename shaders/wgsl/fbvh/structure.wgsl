@@ -1,8 +1,7 @@
 // The trees of the crate `fbvh` as the device sees them: children's boxes in the parent, leaves with
 // lists of balls. Twins: Node and Leaf of crates/fbvh/src/node.rs.
-#define_import_path metaball::fbvh::structure
 
-#import metaball::ray::Ray
+#import ray::Ray
 
 struct Node {
     left_min: vec3<f32>,

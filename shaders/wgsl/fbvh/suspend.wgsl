@@ -6,10 +6,9 @@
 // be exceeded the ray writes down where it stands and the next dispatch takes it up there. A ray that
 // finds no place to wait, or is still waiting after the last dispatch, leaves the frame unfinished, which
 // it says.
-#define_import_path metaball::fbvh::suspend
 
-#import metaball::fbvh::structure::EMPTY
-#import metaball::status::{report_finished, report_needed, report_unfinished}
+#import fbvh::structure::EMPTY
+#import core::status::{report_finished, report_needed, report_unfinished}
 
 // Iterations after which a ray waits. LONGEST_LIST of crates/fbvh/src/gpu/device_tree.rs is 6,600: a walk
 // along such a list, by words and bits, takes 6,808. So eight rays, each with such a walk after its way

@@ -2,17 +2,17 @@
 // tree. `trace` starts every ray, `resume` goes on with those that had to wait. Where rays come from, and
 // what they ask, is chosen by ray/primary.wgsl or ray/free.wgsl.
 
-#import metaball::color::{blend_add, blend_start, blend_write}
-#import metaball::fbvh::leaf
-#import metaball::fbvh::structure
-#import metaball::fbvh::suspend
-#import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
-#import metaball::hit
-#import metaball::kernel::kernel_slope
-#import metaball::ray::{any_will_do, goes_on, pixel_of, ray_of, Ray, NOBODY}
-#import metaball::strength::strength
-#import metaball::support::support_of
-#import metaball::work::{come_back_to, count_node, go_down, leave_for_later, write_work}
+#import color::{blend_add, blend_start, blend_write}
+#import fbvh::leaf
+#import fbvh::structure
+#import fbvh::suspend
+#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::hit
+#import kernel::kernel_slope
+#import ray::{any_will_do, goes_on, pixel_of, ray_of, Ray, NOBODY}
+#import strength::strength
+#import support::support_of
+#import work::{come_back_to, count_node, go_down, leave_for_later, write_work}
 
 // The tree's root: a node, a leaf, or EMPTY.
 @id(21) override root: u32 = 0xffffffffu;

@@ -1,10 +1,9 @@
 // The balls whose chords hold the current piece of the ray.
-#define_import_path metaball::illes_fraglist::active
 
-#import metaball::illes_fraglist::balls::{segment_of, support_of_rank}
-#import metaball::illes_fraglist::budget
-#import metaball::illes_fraglist::records::MOST
-#import metaball::work::count_balls
+#import illes_fraglist::balls::{segment_of, support_of_rank}
+#import illes_fraglist::budget
+#import illes_fraglist::records::MOST
+#import work::count_balls
 
 struct Active {
     rank: u32,

@@ -1,10 +1,10 @@
 // Sorts balls into the tiles of the picture: counts, adds up, fills in.
 
-#import metaball::illes_fraglist::prefix::{sum_before, THREADS}
-#import metaball::illes_fraglist::tiles
-#import metaball::illes_fraglist::tiles::{entries, marks}
-#import metaball::scene::scene
-#import metaball::status::{report_needed, report_unfinished}
+#import illes_fraglist::prefix::{sum_before, THREADS}
+#import illes_fraglist::tiles
+#import illes_fraglist::tiles::{entries, marks}
+#import core::scene::scene
+#import core::status::{report_needed, report_unfinished}
 
 @compute @workgroup_size(64)
 fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

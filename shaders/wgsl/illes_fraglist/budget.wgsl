@@ -2,7 +2,6 @@
 // their loops, silently, after 65,535 iterations in all: as many as the longest of them takes where they go
 // the same way, and up to the sum where they do not. So loops are counted, and past the budget a ray
 // waits for the next dispatch.
-#define_import_path metaball::illes_fraglist::budget
 
 // Walks along lists take four nodes an iteration, since iterations are what is scarce. All rays walk
 // together once to count or to recall where they were, and once for the normal: 3,072 iterations with lists of

@@ -2,20 +2,20 @@
 // nearest point that a ball still in the list can reach, the safe zone, they are passed one by one,
 // with the piece of the field between two of them searched for its first root.
 
-#import metaball::color::{blend_add, blend_start, blend_write}
-#import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
-#import metaball::hit
-#import metaball::illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of}
-#import metaball::illes_fraglist::balls::support_of_rank
-#import metaball::illes_fraglist::budget
-#import metaball::illes_fraglist::crowd
-#import metaball::illes_fraglist::lists
-#import metaball::illes_fraglist::order
-#import metaball::illes_fraglist::piece
-#import metaball::illes_fraglist::records
-#import metaball::status::{report_finished, report_needed, report_unfinished}
-#import metaball::view::{in_picture, pixel_at, rays, view}
-#import metaball::work::{count_layers, write_work}
+#import color::{blend_add, blend_start, blend_write}
+#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::hit
+#import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of}
+#import illes_fraglist::balls::support_of_rank
+#import illes_fraglist::budget
+#import illes_fraglist::overlap
+#import illes_fraglist::lists
+#import illes_fraglist::order
+#import illes_fraglist::piece
+#import illes_fraglist::records
+#import core::status::{report_finished, report_needed, report_unfinished}
+#import core::view::{in_picture, pixel_at, rays, view}
+#import work::{count_layers, write_work}
 
 // Where a pixel stands between two dispatches; zeros when the frame begins. Twin: Progress of
 // crates/illes-fraglist/src/canvas.rs. The local arrays are not kept: the list up to `place` and the
@@ -201,7 +201,7 @@ fn pass_up_to(safe: f32) -> u32 {
 // to come may begin before them.
 fn make_room() -> u32 {
     while !records::has_room() {
-        if crowd::can_search() {
+        if overlap::can_search() {
             return NO_ROOM;
         }
         if !budget::can_go_on() {
@@ -218,7 +218,7 @@ fn make_room() -> u32 {
 // Searches the rest of the ray without the array.
 fn search_crowd(head: u32, width: ptr<function, f32>) -> u32 {
     var reached = position;
-    let root = crowd::search_crowd(head, direction, limit, &reached, width);
+    let root = overlap::search_crowd(head, direction, limit, &reached, width);
     let is_found = root >= 0.0;
     position = select(reached, root, is_found);
     if is_found {

@@ -1,12 +1,12 @@
 // Core depth and lists of all pixels, each from the entries of its tile: what cores.wgsl and gather.wgsl
 // do by rasterising.
 
-#import metaball::illes_fraglist::balls::{ball_of_rank, core_entry, is_gathered, segment_of}
-#import metaball::illes_fraglist::balls::support_of_rank
-#import metaball::illes_fraglist::lists
-#import metaball::illes_fraglist::tiles
-#import metaball::status::{report_needed, report_unfinished}
-#import metaball::view::{in_picture, pixel_at, rays, NO_LIMIT}
+#import illes_fraglist::balls::{ball_of_rank, core_entry, is_gathered, segment_of}
+#import illes_fraglist::balls::support_of_rank
+#import illes_fraglist::lists
+#import illes_fraglist::tiles
+#import core::status::{report_needed, report_unfinished}
+#import core::view::{in_picture, pixel_at, rays, NO_LIMIT}
 
 // What cast.wgsl reads as `lists::core_distance`.
 @group(3) @binding(6) var core_distance: texture_storage_2d<r32float, write>;

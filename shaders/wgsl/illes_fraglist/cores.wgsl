@@ -1,10 +1,10 @@
 // The nearest core along each ray: the sphere in which a ball alone reaches the threshold (section 5,
 // "lay down depth"). Drawn nearest first, so that later ones are hidden.
 
-#import metaball::cover::covering_corner
-#import metaball::illes_fraglist::balls::{ball_of_rank, core_entry, core_radii}
-#import metaball::support::support_of
-#import metaball::view::{pixel_at, rays, NO_LIMIT}
+#import core::cover::covering_corner
+#import illes_fraglist::balls::{ball_of_rank, core_entry, core_radii}
+#import support::support_of
+#import core::view::{pixel_at, rays, NO_LIMIT}
 
 struct Corner {
     @builtin(position) position: vec4<f32>,

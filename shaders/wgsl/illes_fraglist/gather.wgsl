@@ -2,11 +2,11 @@
 // gathering). Drawn farthest first, so that lists come out nearest first where the device keeps the
 // order; order.wgsl sees to the rest.
 
-#import metaball::cover::covering_corner
-#import metaball::illes_fraglist::balls::{is_gathered, segment_of, support_of_rank}
-#import metaball::illes_fraglist::lists
-#import metaball::scene::scene
-#import metaball::view::{pixel_at, rays}
+#import core::cover::covering_corner
+#import illes_fraglist::balls::{is_gathered, segment_of, support_of_rank}
+#import illes_fraglist::lists
+#import core::scene::scene
+#import core::view::{pixel_at, rays}
 
 struct Corner {
     @builtin(position) position: vec4<f32>,

@@ -1,7 +1,6 @@
 // Each pixel's list of the balls that its ray meets: linked nodes in one pool (section 5, gathering).
-#define_import_path metaball::illes_fraglist::lists
 
-#import metaball::status::{report_needed, report_unfinished}
+#import core::status::{report_needed, report_unfinished}
 
 // A node of a list. Twin: Node of crates/illes-fraglist/src/canvas.rs.
 struct Node {

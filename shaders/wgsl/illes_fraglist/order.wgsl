@@ -1,10 +1,9 @@
 // Puts a pixel's list in order of rank. Where fragments arrive in draw order, as many devices happen
 // to have it and none promises, the list is in order already and one walk says so; otherwise it is a
 // few runs, which a natural merge sort of the links joins in place.
-#define_import_path metaball::illes_fraglist::order
 
-#import metaball::illes_fraglist::budget
-#import metaball::illes_fraglist::lists
+#import illes_fraglist::budget
+#import illes_fraglist::lists
 
 // Whether the list is in order. `false`: the budget is spent; the next dispatch goes on from what
 // has been merged.

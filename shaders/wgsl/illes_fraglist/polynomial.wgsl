@@ -2,7 +2,6 @@
 //
 // Along a ray v = 1 - r²/R² is a parabola, with three Bernstein coefficients on an interval; those of
 // its square and cube follow by the product rule of Bernstein polynomials.
-#define_import_path metaball::illes_fraglist::polynomial
 
 // The kernel: the sum of these weights times v, v² and v³.
 @id(50) override once_weight: f32 = 0.0;

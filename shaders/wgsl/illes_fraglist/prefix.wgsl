@@ -1,5 +1,4 @@
 // Sums over the invocations of a workgroup.
-#define_import_path metaball::illes_fraglist::prefix
 
 // Invocations of a workgroup at most.
 const THREADS: u32 = 256u;

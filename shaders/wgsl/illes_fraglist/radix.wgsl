@@ -3,10 +3,10 @@
 // there in order; so equal keys stay in the order of their balls. Workgroups wait for each other only
 // from dispatch to dispatch.
 
-#import metaball::illes_fraglist::balls::effective_distance
-#import metaball::illes_fraglist::prefix::{sum_before, THREADS}
-#import metaball::scene::scene
-#import metaball::support::support_of
+#import illes_fraglist::balls::effective_distance
+#import illes_fraglist::prefix::{sum_before, THREADS}
+#import core::scene::scene
+#import support::support_of
 
 struct Entry {
     // Ordered as the distances are.

@@ -1,9 +1,8 @@
 // The separators that a ray has yet to pass: ends and midpoints of effective intervals, ordered by
 // distance, in a local array of fixed size (section 6). The nearest stands last, so that taking it
 // is counting down.
-#define_import_path metaball::illes_fraglist::records
 
-#import metaball::illes_fraglist::budget
+#import illes_fraglist::budget
 
 // What a separator is to its ball.
 const ENTER: u32 = 0u;

@@ -1,10 +1,9 @@
 // Lists of the balls that can be seen in each tile of the picture: the rasteriser's part of the
 // gathering, done in compute.
-#define_import_path metaball::illes_fraglist::tiles
 
-#import metaball::cover::covering_corner
-#import metaball::illes_fraglist::balls::support_of_rank
-#import metaball::view::view
+#import core::cover::covering_corner
+#import illes_fraglist::balls::support_of_rank
+#import core::view::view
 
 // Tiles of a picture at most: TILES of crates/illes-fraglist/src/tiles.rs. A ball that fills the
 // picture takes so many iterations.

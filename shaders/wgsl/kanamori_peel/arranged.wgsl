@@ -1,8 +1,7 @@
 // What arrange.wgsl made and the tiles' balls, for the passes that draw.
-#define_import_path metaball::kanamori_peel::arranged
 
-#import metaball::kanamori_peel::placed::Placed
-#import metaball::kanamori_peel::tiles::Tile
+#import kanamori_peel::placed::Placed
+#import kanamori_peel::tiles::Tile
 
 // The longest list of active balls that eight targets hold: 4 * 8 - 2.
 const MOST_ACTIVE: u32 = 30u;

@@ -1,7 +1,6 @@
 // Curves in Bernstein form over parts of an interval, for the modules that clip them.
-#define_import_path metaball::kanamori_peel::bezier
 
-#import metaball::kanamori_peel::bernstein::{Curve, degree}
+#import kanamori_peel::bernstein::{Curve, degree}
 
 // A root's outcome beside those in [0, 1].
 const NO_ROOT: f32 = 2.0;

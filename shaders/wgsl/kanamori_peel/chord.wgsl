@@ -1,5 +1,4 @@
 // A ray through a sphere.
-#define_import_path metaball::kanamori_peel::chord
 
 struct Chord {
     // t of the centre's projection onto the ray.

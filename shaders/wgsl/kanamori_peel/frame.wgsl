@@ -1,7 +1,6 @@
 // What all passes of the method agree on.
-#define_import_path metaball::kanamori_peel::frame
 
-#import metaball::view::NO_LIMIT
+#import core::view::NO_LIMIT
 
 // Twin of `Peeling` in kanamori-peel.
 struct Peeling {

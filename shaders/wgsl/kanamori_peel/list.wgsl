@@ -1,19 +1,18 @@
 // The list of active balls of a ray (section 4.2), and the search of one interval with them.
-#define_import_path metaball::kanamori_peel::list
 
-#import metaball::color::{blend_add, blend_start, blend_write}
-#import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
-#import metaball::hit
-#import metaball::kanamori_peel::arranged::{kernel_radii, MOST_ACTIVE}
-#import metaball::kanamori_peel::bernstein::{along_chord, Curve, degree}
-#import metaball::kanamori_peel::bezier::{LOST, NO_ROOT, part}
-#import metaball::kanamori_peel::chord::chord_of
-#import metaball::kanamori_peel::clipping::first_root
-#import metaball::scene::scene
-#import metaball::strength::strength
-#import metaball::support::support_of
-#import metaball::view::{Ray, view}
-#import metaball::work::{count_balls, count_leaf_test, count_search_end}
+#import color::{blend_add, blend_start, blend_write}
+#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::hit
+#import kanamori_peel::arranged::{kernel_radii, MOST_ACTIVE}
+#import kanamori_peel::bernstein::{along_chord, Curve, degree}
+#import kanamori_peel::bezier::{LOST, NO_ROOT, part}
+#import kanamori_peel::chord::chord_of
+#import kanamori_peel::clipping::first_root
+#import core::scene::scene
+#import strength::strength
+#import support::support_of
+#import core::view::{Ray, view}
+#import work::{count_balls, count_leaf_test, count_search_end}
 
 // Outcomes of a search beside distances.
 const NOTHING_FOUND: f32 = -1.0;

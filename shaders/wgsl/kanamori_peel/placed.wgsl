@@ -1,7 +1,6 @@
 // Where a ball's support lies on the picture.
-#define_import_path metaball::kanamori_peel::placed
 
-#import metaball::cover::cover_sphere
+#import core::cover::cover_sphere
 
 // Twin of `Placed` in kanamori-peel.
 struct Placed {

@@ -2,10 +2,10 @@
 // passes: tally and fill (256 balls a workgroup) with assign (one workgroup, a lane a tile) between
 // them.
 
-#import metaball::kanamori_peel::placed::Placed
-#import metaball::kanamori_peel::tiles::{MOST_TILES, Tile, tile_at, TileRange, tiles_of}
-#import metaball::scene::scene
-#import metaball::status::{report_needed, report_unfinished}
+#import kanamori_peel::placed::Placed
+#import kanamori_peel::tiles::{MOST_TILES, Tile, tile_at, TileRange, tiles_of}
+#import core::scene::scene
+#import core::status::{report_needed, report_unfinished}
 
 @group(2) @binding(0) var<storage, read> placed: array<Placed>;
 @group(2) @binding(1) var<storage, read_write> tiles: array<Tile>;

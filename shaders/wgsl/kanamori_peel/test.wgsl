@@ -1,14 +1,14 @@
 // Passes over the picture: the lists that rays begin with, the isosurface test of a layer's interval
 // with the update of the lists (sections 4.2 and 4.3), and the count of rays without an answer.
 
-#import metaball::hit
-#import metaball::kanamori_peel::list
-#import metaball::kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
-#import metaball::kanamori_peel::frame::from_depth
-#import metaball::kanamori_peel::tiles::{corner_of_tile, tile_of}
-#import metaball::status::report_unfinished
-#import metaball::view::{in_picture, NO_LIMIT, pixel_at, Ray, rays}
-#import metaball::work::{count_layers, write_work}
+#import core::hit
+#import kanamori_peel::list
+#import kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
+#import kanamori_peel::frame::from_depth
+#import kanamori_peel::tiles::{corner_of_tile, tile_of}
+#import core::status::report_unfinished
+#import core::view::{in_picture, NO_LIMIT, pixel_at, Ray, rays}
+#import work::{count_layers, write_work}
 
 // Whether kernel spheres were drawn, see arrange.wgsl.
 @id(32) override culling: bool = true;

@@ -1,9 +1,8 @@
 // The grid of tiles that the picture is divided into (section 5.3): each is peeled with its own balls
 // until none of its rays is left.
-#define_import_path metaball::kanamori_peel::tiles
 
-#import metaball::kanamori_peel::placed::{is_drawn, Placed}
-#import metaball::view::view
+#import kanamori_peel::placed::{is_drawn, Placed}
+#import core::view::view
 
 // Tiles on a side of the grid.
 @id(38) override tiles_on_side: u32 = 8u;

@@ -1,7 +1,6 @@
 // Tiles of the picture with the balls that can be seen in each, nearest first (section 5.3, in compute).
-#define_import_path metaball::kanamori_robust::lists
 
-#import metaball::view::view
+#import core::view::view
 
 // Tiles of a picture at most: MOST_TILES of crates/kanamori-peel/src/robust/room.rs.
 const MOST_TILES: u32 = 16384u;

@@ -1,12 +1,12 @@
 // Registers balls with the tiles of the picture: counts, adds up, fills in, and sorts each tile's list.
 
-#import metaball::cover::covering_corner
-#import metaball::kanamori_robust::lists
-#import metaball::kanamori_robust::lists::{entries, Entry, marks}
-#import metaball::scene::scene
-#import metaball::status::{report_needed, report_unfinished}
-#import metaball::support::support_of
-#import metaball::view::view
+#import core::cover::covering_corner
+#import kanamori_robust::lists
+#import kanamori_robust::lists::{entries, Entry, marks}
+#import core::scene::scene
+#import core::status::{report_needed, report_unfinished}
+#import support::support_of
+#import core::view::view
 
 @compute @workgroup_size(64)
 fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

@@ -6,19 +6,19 @@
 // Distances are kept from a base on the ray, close by: see beside.wgsl. A ray whose work exceeds the
 // budget waits for the next dispatch.
 
-#import metaball::beside::{beside, Beside, offset_to, UNIT}
-#import metaball::color::{blend_add, blend_start, blend_write}
-#import metaball::field::{contribution, gradient}
-#import metaball::hit
-#import metaball::kanamori_robust::lists
-#import metaball::kanamori_robust::lists::entries
-#import metaball::kernel::{kernel, kernel_slope, steepest_slope}
-#import metaball::scene::scene
-#import metaball::status::{report_finished, report_needed, report_unfinished}
-#import metaball::strength::strength
-#import metaball::support::support_of
-#import metaball::view::{in_picture, pixel_at, rays, Ray}
-#import metaball::work::{count_balls, count_evaluations, count_iterations, count_leaf_test, write_work}
+#import core::beside::{beside, Beside, offset_to, UNIT}
+#import color::{blend_add, blend_start, blend_write}
+#import core::field::{contribution, gradient}
+#import core::hit
+#import kanamori_robust::lists
+#import kanamori_robust::lists::entries
+#import kernel::{kernel, kernel_slope, steepest_slope}
+#import core::scene::scene
+#import core::status::{report_finished, report_needed, report_unfinished}
+#import strength::strength
+#import support::support_of
+#import core::view::{in_picture, pixel_at, rays, Ray}
+#import work::{count_balls, count_evaluations, count_iterations, count_leaf_test, write_work}
 
 // Iterations after which a ray waits. Before it looks again two walks along a window may follow, four balls
 // an iteration: 8,096 in all. Software Vulkan runs eight invocations side by side and ends their loops,

@@ -1,10 +1,9 @@
 // All kernels, told apart wherever a value is asked for. Formulas and order of operations are those of
 // power.wgsl, wyvill.wgsl and perlin.wgsl.
-#define_import_path metaball::kernel
 
-#import metaball::exponent::exponent
-#import metaball::kernel_read::{kernel_read, PERLIN, POWER}
-#import metaball::powers::power
+#import exponent::exponent
+#import core::kernel_read::{kernel_read, PERLIN, POWER}
+#import core::powers::power
 
 // v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {

@@ -1,6 +1,5 @@
 // Perlin's polynomial of degree five in rho = r/R, 1 - 10 rho^3 + 15 rho^4 - 6 rho^5 (Illés and
 // Szécsi), as the product (1 - rho)^3 (1 + 3 rho + 6 rho^2), which does not cancel at the rim.
-#define_import_path metaball::kernel
 
 // v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {

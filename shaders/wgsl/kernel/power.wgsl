@@ -1,8 +1,7 @@
 // The power kernel v^alpha, alpha from 1 to 8 (Gourmel et al. 2010, section 2.1).
-#define_import_path metaball::kernel
 
-#import metaball::exponent::exponent
-#import metaball::powers::power
+#import exponent::exponent
+#import core::powers::power
 
 // v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {

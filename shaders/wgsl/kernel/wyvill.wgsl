@@ -1,5 +1,4 @@
 // Wyvill's polynomial of degree six in r, written in v: v^2 (5 + 4v) / 9 (Kanamori et al. 2008).
-#define_import_path metaball::kernel
 
 // v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {

@@ -1,10 +1,9 @@
 // What the passes of the crate metaball-light share: settings, lamps, and one path of light a pixel,
 // followed backwards from the eye.
-#define_import_path metaball::effects::path
 
-#import metaball::free_ray::FreeRay
-#import metaball::hit::Hit
-#import metaball::listed::Listed
+#import batch::free_ray::FreeRay
+#import core::hit::Hit
+#import batch::list::Listed
 
 // Twin of `twins::Settings` in metaball-light.
 struct Settings {

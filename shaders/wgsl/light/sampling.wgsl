@@ -1,8 +1,7 @@
 // Low-discrepancy numbers: Roberts' sequence R2, shifted for each pixel and purpose by a hash of both
 // and of the seed (Cranley and Patterson 1976). The same seed gives the same picture.
-#define_import_path metaball::effects::sampling
 
-#import metaball::effects::path::settings
+#import light::path::settings
 
 // Number `index` of a pixel's points in the unit square, for one purpose.
 fn point_in_square(pixel: u32, purpose: u32, index: u32) -> vec2<f32> {

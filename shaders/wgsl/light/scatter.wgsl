@@ -1,13 +1,12 @@
 // What a surface does with light: Phong's model lit along shadow and occlusion rays, a mirror, or a clear
 // fluid.
-#define_import_path metaball::effects::scatter
 
-#import metaball::free_ray::{FreeRay, ANSWERED, ANY_HIT, EXIT, FIRST_HIT}
-#import metaball::effects::environment::ambient
-#import metaball::effects::floor::beyond
-#import metaball::effects::path::{lamps, path_rays, settings, shadow_rays, Path, OUTSIDE, WITHIN}
-#import metaball::effects::sampling::{around, on_disc, point_in_square}
-#import metaball::view::NO_LIMIT
+#import batch::free_ray::{FreeRay, ANSWERED, ANY_HIT, EXIT, FIRST_HIT}
+#import light::environment::ambient
+#import light::floor::beyond
+#import light::path::{lamps, path_rays, settings, shadow_rays, Path, OUTSIDE, WITHIN}
+#import light::sampling::{around, on_disc, point_in_square}
+#import core::view::NO_LIMIT
 
 // Phong's highlight: its exponent, and its brightness beside a white surface's.
 const SHININESS: f32 = 48.0;

@@ -1,5 +1,4 @@
 // A view with a solid scene in front (Illés and Szécsi, phase 2): no ray looks beyond it.
-#define_import_path metaball::opaque
 
 // Distance along each pixel's ray, scene units; the host has put NO_LIMIT for infinity.
 @group(1) @binding(0) var<storage, read> opaque_distances: array<f32>;

@@ -1,7 +1,6 @@
 // A view without a solid scene: nothing ends a ray.
-#define_import_path metaball::opaque
 
-#import metaball::view::NO_LIMIT
+#import core::view::NO_LIMIT
 
 fn opaque_distance(pixel: u32) -> f32 {
     return NO_LIMIT;

@@ -1,9 +1,8 @@
 // Rays of a batch, each with a start of its own. A pass answers those that ask its question, along their
 // list.
-#define_import_path metaball::ray
 
-#import metaball::free_ray::{FreeRay, ANY_HIT}
-#import metaball::listed::{place_of, Listed}
+#import batch::free_ray::{FreeRay, ANY_HIT}
+#import batch::list::{place_of, Listed}
 
 // The points `origin + t * direction`, 0 <= t <= t_max.
 struct Ray {

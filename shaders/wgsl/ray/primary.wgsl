@@ -1,8 +1,7 @@
 // The rays of a view, as a method that follows any ray sees them: all start at the eye, all ask for
 // the first hit.
-#define_import_path metaball::ray
 
-#import metaball::view::{in_blocks, in_picture, pixel_at, rays, view}
+#import core::view::{in_blocks, in_picture, pixel_at, rays, view}
 
 // The points `origin + t * direction`, 0 <= t <= t_max.
 struct Ray {

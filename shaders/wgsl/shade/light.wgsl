@@ -1,7 +1,6 @@
 // Lights and materials, in linear light. The lights move with the camera.
-#define_import_path metaball::light
 
-#import metaball::view::view
+#import core::view::view
 
 // The material of scenes without colours.
 const WHITE: vec3<f32> = vec3(0.80, 0.78, 0.74);

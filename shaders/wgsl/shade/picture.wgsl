@@ -1,7 +1,6 @@
 // What all pictures share: where they are written, and what a pixel without a surface looks like.
-#define_import_path metaball::picture
 
-#import metaball::srgb::encode
+#import core::srgb::encode
 
 // Twin of `ValueRange` in metaball-core: what the ends of a scale stand for.
 struct ValueRange {

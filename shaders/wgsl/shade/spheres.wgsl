@@ -1,11 +1,11 @@
 // The balls alone, each as the sphere in which it reaches the threshold by itself (Kanamori et al.
 // 2008, figure 11 left). A rectangle a ball bounds it on the picture; a fragment intersects its ray.
 
-#import metaball::cover::covering_corner
-#import metaball::light::{phong, from_within, background}
-#import metaball::make_ray::direction_through
-#import metaball::srgb::{decode, encode}
-#import metaball::view::view
+#import core::cover::covering_corner
+#import shade::light::{phong, from_within, background}
+#import core::make_ray::direction_through
+#import core::srgb::{decode, encode}
+#import core::view::view
 
 // Twin of `CoreSphere` in metaball-core.
 struct CoreSphere {

@@ -1,5 +1,4 @@
 // A scene whose balls have strengths of their own.
-#define_import_path metaball::strength
 
 @group(1) @binding(1) var<storage, read> strengths: array<f32>;
 

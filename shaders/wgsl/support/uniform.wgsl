@@ -1,7 +1,6 @@
 // A scene whose balls all have one radius, which the shader is compiled for.
-#define_import_path metaball::support
 
-#import metaball::scene::Support
+#import core::scene::Support
 
 // Scene units. Of the ids that metaball-core sets.
 @id(3) override compiled_radius: f32;

@@ -1,7 +1,6 @@
 // A scene whose balls have radii of their own.
-#define_import_path metaball::support
 
-#import metaball::scene::Support
+#import core::scene::Support
 
 // Centre and radius of each ball in one vector: one load.
 @group(1) @binding(0) var<storage, read> supports: array<vec4<f32>>;

@@ -1,7 +1,6 @@
 // What a pixel cost, counted in private memory and added to the pixel's record once an invocation.
-#define_import_path metaball::work
 
-#import metaball::work_record::{Work, work_of_pixel}
+#import core::work_record::{Work, work_of_pixel}
 
 var<private> work: Work;
 // Iterations since the last search ended.

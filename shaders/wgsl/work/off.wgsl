@@ -1,5 +1,4 @@
 // Counting compiled out.
-#define_import_path metaball::work
 
 fn count_node() {}
 

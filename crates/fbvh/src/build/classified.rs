@@ -48,7 +48,7 @@ const PILED: f32 = 0.125;
 const WIDEST: f32 = 16.0;
 
 /// Lists hold what reaches the box widened by this share of its longest side, and solid boxes are solid
-/// to there: tracers may look so far past its faces (`slack` in `fbvh/local.wgsl`).
+/// to there: tracers may look so far past its faces (`slack` in `fbvh/relative_ray.wgsl`).
 const WIDENED: f32 = 4e-6;
 
 impl Builder {

@@ -18,7 +18,7 @@
 //!
 //! # Rays that go on
 //! Free rays ([`RayTracer`]) run through the same shader; `ray/free.wgsl` hands them out, and
-//! `fbvh/falls.wgsl` stands in for `fbvh/rises.wgsl` where the way out of the solid is sought. A ray
+//! `fbvh/excess/exit.wgsl` stands in for `fbvh/excess/entry.wgsl` where the way out of the solid is sought. A ray
 //! that goes on from a hit must start on the side of the surface that it leaves on, or it would find
 //! the surface it comes from; started too far off it would step over thin gaps. How far is enough
 //! follows from how far the hit can be from the surface, u = 2⁻²³:
@@ -267,8 +267,8 @@ mod tests {
     #[test]
     fn host_structs_are_their_wgsl_twins() {
         let choices: [&[&str]; 2] = [
-            &["ray/primary", "fbvh/leaf"],
-            &["ray/free", "fbvh/certified_leaf", "fbvh/falls", "fbvh/no_look"],
+            &["ray/primary", "fbvh/leaf/published"],
+            &["ray/free", "fbvh/leaf/certified", "fbvh/excess/exit", "fbvh/polynomial_test/none"],
         ];
         for chosen in choices {
             let variant = Variant {

@@ -91,7 +91,7 @@ impl TracePipelines {
         let spec = scene.choosing(modules(kind, &scene, query));
         // Section 4 leaves no choice: the modified BVH is always read literally.
         let clipped = kind == Kind::Fitted && options.reading == Reading::Clipped;
-        // The ids of the override constants in fbvh/leaf.wgsl and fbvh/trace.wgsl.
+        // The ids of the override constants in fbvh/leaf/published.wgsl and fbvh/trace.wgsl.
         let published = [
             ("17", f64::from(u8::from(kind == Kind::Fitted))),
             ("18", f64::from(u8::from(clipped))),
@@ -119,22 +119,31 @@ impl TracePipelines {
 fn modules(kind: Kind, scene: &Specialization, query: Option<RayQuery>) -> &'static [&'static str] {
     let is_quartic = scene.kernel == Kernel::QUARTIC && scene.kernel_form == KernelForm::Known;
     match (kind, query) {
-        (Kind::ModifiedBvh | Kind::Fitted, None) => &["ray/primary", "fbvh/leaf"],
-        (Kind::ModifiedBvh | Kind::Fitted, Some(_)) => &["ray/free", "fbvh/leaf"],
-        (Kind::Certified, None) if is_quartic => {
-            &["ray/primary", "fbvh/certified_leaf", "fbvh/rises", "fbvh/quartic"]
-        }
-        (Kind::Certified, None) => {
-            &["ray/primary", "fbvh/certified_leaf", "fbvh/rises", "fbvh/no_look"]
-        }
+        (Kind::ModifiedBvh | Kind::Fitted, None) => &["ray/primary", "fbvh/leaf/published"],
+        (Kind::ModifiedBvh | Kind::Fitted, Some(_)) => &["ray/free", "fbvh/leaf/published"],
+        (Kind::Certified, None) if is_quartic => &[
+            "ray/primary",
+            "fbvh/leaf/certified",
+            "fbvh/excess/entry",
+            "fbvh/polynomial_test/quartic",
+        ],
+        (Kind::Certified, None) => &[
+            "ray/primary",
+            "fbvh/leaf/certified",
+            "fbvh/excess/entry",
+            "fbvh/polynomial_test/none",
+        ],
         (Kind::Certified, Some(RayQuery::Exit)) => {
-            &["ray/free", "fbvh/certified_leaf", "fbvh/falls", "fbvh/no_look"]
+            &["ray/free", "fbvh/leaf/certified", "fbvh/excess/exit", "fbvh/polynomial_test/none"]
         }
-        (Kind::Certified, Some(_)) if is_quartic => {
-            &["ray/free", "fbvh/certified_leaf", "fbvh/rises", "fbvh/quartic"]
-        }
+        (Kind::Certified, Some(_)) if is_quartic => &[
+            "ray/free",
+            "fbvh/leaf/certified",
+            "fbvh/excess/entry",
+            "fbvh/polynomial_test/quartic",
+        ],
         (Kind::Certified, Some(_)) => {
-            &["ray/free", "fbvh/certified_leaf", "fbvh/rises", "fbvh/no_look"]
+            &["ray/free", "fbvh/leaf/certified", "fbvh/excess/entry", "fbvh/polynomial_test/none"]
         }
     }
 }

@@ -22,7 +22,7 @@
 //! off for lower ones. Each term of the sums is then right to 16u of itself and the sum of n of them
 //! to n·u more; terms of slopes, which have both signs, are lessened by as much each. A projection is
 //! misplaced by no more than the margin of v times R. The shader does the same in f32 from an origin
-//! beside the leaf (`fbvh/local.wgsl`, `fbvh/projection.wgsl`), with u = 2⁻²³ and what is left of it
+//! beside the leaf (`fbvh/relative_ray.wgsl`, `fbvh/projection.wgsl`), with u = 2⁻²³ and what is left of it
 //! where r is less than R: projection and distance are misplaced by e = 6u·|p − o′| and what o′
 //! itself is, so r² is by 2re + e²; squares, sums and division add 9u of r²/R², the last difference
 //! u. So balls that are seen near their centres, and short intervals, have the digits that they

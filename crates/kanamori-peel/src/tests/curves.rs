@@ -81,8 +81,8 @@ fn value(coefficients: &[f32], u: f64) -> f64 {
 /// 3·2α each: below 128 · 2⁻²³ for α = 8.
 #[test]
 fn bernstein_forms_are_the_kernel() {
-    const SOURCE: &str = "#import metaball::kanamori_peel::bernstein::{along_chord, degree}\n\
-        #import metaball::kanamori_peel::bezier::part
+    const SOURCE: &str = "#import kanamori_peel::bernstein::{along_chord, degree}\n\
+        #import kanamori_peel::bezier::part
         @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
         @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
         @compute @workgroup_size(64)
@@ -129,8 +129,8 @@ fn bernstein_forms_are_the_kernel() {
 }
 
 /// Finds the first root of each curve: 0 to 1, or 2 where there is none.
-const ROOTS: &str = "#import metaball::kanamori_peel::bernstein::{Curve, degree}\n\
-    #import metaball::kanamori_peel::clipping::first_root
+const ROOTS: &str = "#import kanamori_peel::bernstein::{Curve, degree}\n\
+    #import kanamori_peel::clipping::first_root
     @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
     @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
     @compute @workgroup_size(64)

@@ -14,9 +14,9 @@ fn twin(module: &str, name: &str) -> StructLayout {
         colors: true,
         counting: true,
         chosen: &[
-            "kanamori_peel/wyvill",
-            "kanamori_peel/clipping_short_stack",
-            "kanamori_peel/outline_rectangle",
+            "kanamori_peel/bernstein/wyvill",
+            "kanamori_peel/clipping/short_stack",
+            "kanamori_peel/outline/rectangle",
         ],
     };
     let module = compose(module, &variant).unwrap_or_else(|error| panic!("{error}"));

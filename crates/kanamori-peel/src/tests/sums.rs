@@ -11,9 +11,9 @@ use crate::Clipping;
 
 /// First roots of sums less T over intervals: a record is T, the number of balls, and of each ball a,
 /// the strength, and the interval's ends in parts of the chord.
-const SUMS: &str = "#import metaball::kanamori_peel::bernstein::{along_chord, Curve, degree}\n\
-    #import metaball::kanamori_peel::bezier::part\n\
-    #import metaball::kanamori_peel::clipping::first_root
+const SUMS: &str = "#import kanamori_peel::bernstein::{along_chord, Curve, degree}\n\
+    #import kanamori_peel::bezier::part\n\
+    #import kanamori_peel::clipping::first_root
     @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
     @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
     @compute @workgroup_size(64)

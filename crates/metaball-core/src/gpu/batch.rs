@@ -68,7 +68,7 @@ impl RayBatch {
         self.list.encode(frame, query, label)
     }
 
-    /// The last list: WGSL's `Listed` of `shaders/wgsl/ray/listed.wgsl`. Its first twelve bytes are the
+    /// The last list: WGSL's `Listed` of `shaders/wgsl/batch/list.wgsl`. Its first twelve bytes are the
     /// arguments of an indirect dispatch along it, 64 rays a workgroup.
     pub fn list(&self) -> &wgpu::Buffer {
         self.list.buffer()

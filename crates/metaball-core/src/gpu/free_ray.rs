@@ -25,11 +25,11 @@ impl RayQuery {
     pub const ALL: [Self; 3] = [Self::FirstHit, Self::AnyHit, Self::Exit];
 
     /// Key of the override constant, its `@id`, that holds the query of a pass composed with
-    /// `shaders/wgsl/ray/list.wgsl` or `shaders/wgsl/ray/free.wgsl`: `query as u32`.
+    /// `shaders/wgsl/batch/list_rays.wgsl` or `shaders/wgsl/ray/free.wgsl`: `query as u32`.
     pub const CONSTANT: &str = "2";
 }
 
-/// A ray of a batch, 32 bytes: WGSL's `FreeRay` of `shaders/wgsl/ray/record.wgsl`.
+/// A ray of a batch, 32 bytes: WGSL's `FreeRay` of `shaders/wgsl/batch/free_ray.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct FreeRay {

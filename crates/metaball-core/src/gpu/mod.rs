@@ -23,17 +23,17 @@
 //!
 //! | group | binding | holds | WGSL module |
 //! | --- | --- | --- | --- |
-//! | 0, the frame's ([`frame_layout`]) | 0 | view, uniform | `metaball::view` |
-//! | | 1 | a ray a pixel, read | `metaball::view` |
-//! | | 2 | a hit a pixel, written | `metaball::hit` |
-//! | | 3 | status of the frame, written | `metaball::status` |
-//! | | 4 | a blended colour a pixel, written; in scenes with colours | `metaball::color` |
-//! | | 5 | work counters, written; while counting | `metaball::work` |
-//! | 1, the scene's ([`scene_layout`]) | 0 | support spheres, read | `metaball::support` |
-//! | | 1 | strengths, read; where they vary | `metaball::strength` |
-//! | | 2 | the balls' colours, read; where there are any | `metaball::color` |
-//! | | 3 | threshold and number of balls, uniform | `metaball::scene` |
-//! | | 4 | the kernel, uniform; where it is not compiled in | `metaball::kernel` |
+//! | 0, the frame's ([`frame_layout`]) | 0 | view, uniform | `core::view` |
+//! | | 1 | a ray a pixel, read | `core::view` |
+//! | | 2 | a hit a pixel, written | `core::hit` |
+//! | | 3 | status of the frame, written | `core::status` |
+//! | | 4 | a blended colour a pixel, written; in scenes with colours | `color` |
+//! | | 5 | work counters, written; while counting | `work` |
+//! | 1, the scene's ([`scene_layout`]) | 0 | support spheres, read | `support` |
+//! | | 1 | strengths, read; where they vary | `strength` |
+//! | | 2 | the balls' colours, read; where there are any | `color` |
+//! | | 3 | threshold and number of balls, uniform | `core::scene` |
+//! | | 4 | the kernel, uniform; where it is not compiled in | `kernel` |
 //! | from 2 on | | the method's own | |
 //!
 //! # Writing a method
@@ -48,8 +48,8 @@
 //! const SHADER: ShaderModule = ShaderModule {
 //!     name: "backdrop",
 //!     source: "
-//! #import metaball::hit::{write_hit, HIT}
-//! #import metaball::view::{in_picture, pixel_at, rays}
+//! #import core::hit::{write_hit, HIT}
+//! #import core::view::{in_picture, pixel_at, rays}
 //!
 //! @compute @workgroup_size(8, 8)
 //! fn trace(@builtin(global_invocation_id) invocation: vec3<u32>) {

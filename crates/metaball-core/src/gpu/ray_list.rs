@@ -8,7 +8,7 @@ use super::layout::{Binding, bind_group, bind_group_layout};
 use super::pipeline::{Specialization, compute_pipeline};
 use super::{Frame, Gpu, RayQuery, RenderError};
 
-/// What a list begins with: WGSL's `Listed` of `shaders/wgsl/ray/listed.wgsl`. The first twelve bytes are
+/// What a list begins with: WGSL's `Listed` of `shaders/wgsl/batch/list.wgsl`. The first twelve bytes are
 /// the arguments of an indirect dispatch along it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -78,7 +78,7 @@ impl RayList {
         let made = compute_pipeline(
             gpu,
             "listed rays",
-            "ray/list",
+            "batch/list_rays",
             "list_rays",
             &spec,
             &layouts,

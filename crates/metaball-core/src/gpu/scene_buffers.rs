@@ -26,7 +26,7 @@ pub struct SceneHeader {
 }
 
 /// The kernel, for shaders that it is not compiled into: WGSL's `KernelRead` of
-/// `shaders/wgsl/kernel/read.wgsl`.
+/// `shaders/wgsl/core/kernel_read.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct KernelRead {

@@ -60,7 +60,7 @@ fn normals() -> Vec<Vec3> {
 #[test]
 fn normals_survive_packing() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let source = "#import metaball::hit::{fold, unfold}
+    let source = "#import core::hit::{fold, unfold}
         @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;
         @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;
         @compute @workgroup_size(64)
@@ -89,7 +89,7 @@ fn normals_survive_packing() {
 #[test]
 fn kernels_are_those_of_the_host() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let source = "#import metaball::kernel::{kernel, kernel_slope}
+    let source = "#import kernel::{kernel, kernel_slope}
         @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;
         @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;
         @compute @workgroup_size(64)

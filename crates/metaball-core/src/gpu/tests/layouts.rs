@@ -20,7 +20,10 @@ fn host_structs_are_their_twins() {
     let twins = [
         (wgsl("core/hit", "Hit"), host_layout!(PackedHit { normal, t, status })),
         (wgsl("core/view", "Ray"), host_layout!(PackedRay { direction, t_max })),
-        (wgsl("ray/record", "FreeRay"), host_layout!(FreeRay { origin, t_max, direction, query })),
+        (
+            wgsl("batch/free_ray", "FreeRay"),
+            host_layout!(FreeRay { origin, t_max, direction, query }),
+        ),
         (
             wgsl("core/view", "View"),
             host_layout!(ViewUniform { eye, width, right, height, up, half_pixel, forward }),
@@ -28,9 +31,9 @@ fn host_structs_are_their_twins() {
         (wgsl("core/status", "Status"), host_layout!(FrameStatus { unfinished, needed })),
         (wgsl("core/scene", "Support"), host_layout!(Support { center, radius })),
         (wgsl("core/scene", "SceneHeader"), host_layout!(SceneHeader { threshold, balls })),
-        (wgsl("kernel/read", "KernelRead"), host_layout!(KernelRead { family, exponent })),
+        (wgsl("core/kernel_read", "KernelRead"), host_layout!(KernelRead { family, exponent })),
         (
-            wgsl("work/record", "Work"),
+            wgsl("core/work_record", "Work"),
             host_layout!(Work {
                 nodes,
                 leaf_tests,
@@ -52,7 +55,7 @@ fn host_structs_are_their_twins() {
         assert_eq!(device, host);
     }
     let head = host_layout!(ListHead { groups_x, groups_y, groups_z, count });
-    let listing = wgsl("ray/list", "Listing");
+    let listing = wgsl("batch/list_rays", "Listing");
     assert_eq!(head.members[..], listing.members[..4]);
     assert_eq!(listing.members[4], ("pixels".to_owned(), head.size));
 }

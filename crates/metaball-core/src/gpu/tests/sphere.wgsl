@@ -1,13 +1,13 @@
 // First hits on the core sphere of ball 0, in closed form.
 
-#import metaball::color::{blend_add, blend_start, blend_write}
-#import metaball::field::{contribution, depth_below_rim, gradient, offset_at}
-#import metaball::hit::{write_hit, write_miss, HIT, INSIDE}
-#import metaball::scene::scene
-#import metaball::status::{report_needed, report_unfinished}
-#import metaball::support::support_of
-#import metaball::view::{in_picture, pixel_at, rays, view}
-#import metaball::work::{count_balls, count_evaluations, write_work}
+#import color::{blend_add, blend_start, blend_write}
+#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::hit::{write_hit, write_miss, HIT, INSIDE}
+#import core::scene::scene
+#import core::status::{report_needed, report_unfinished}
+#import support::support_of
+#import core::view::{in_picture, pixel_at, rays, view}
+#import work::{count_balls, count_evaluations, write_work}
 
 @id(16) override core_radius: f32;
 // Rows of the picture that are drawn.

@@ -1,5 +1,0 @@
-// Where blended colours are recorded, one a pixel. Exists only in scenes with colours.
-#define_import_path metaball::color_record
-
-// sRGB-encoded, as `Color` of metaball-core; written for hits only.
-@group(0) @binding(4) var<storage, read_write> color_of_pixel: array<u32>;

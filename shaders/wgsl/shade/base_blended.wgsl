@@ -1,9 +1,0 @@
-// The surface of a scene with colours: what the method blended.
-#define_import_path metaball::base
-
-#import metaball::color_record::color_of_pixel
-#import metaball::srgb::decode
-
-fn base_color(pixel: u32) -> vec3<f32> {
-    return decode(unpack4x8unorm(color_of_pixel[pixel]).rgb);
-}
