@@ -1,12 +1,4 @@
-//! The kernels k(s), s = r²/R²: one at the centre, falling, zero from the support radius on.
-//!
-//! Everything is written in v = 1 − s, the quantity that is a parabola along any ray:
-//!
-//! | kernel | k | source |
-//! | --- | --- | --- |
-//! | power α | v^α | Gourmel et al. 2010, section 2.1; α = 2 is Kanamori's quartic |
-//! | Wyvill | v²(5 + 4v)/9 | the degree six polynomial of Kanamori et al. 2008, rewritten in v |
-//! | Perlin | (1−ρ)³(1 + 3ρ + 6ρ²), ρ = r/R | 1 − 10ρ³ + 15ρ⁴ − 6ρ⁵ of Illés and Szécsi, as a product, which does not cancel at the rim |
+//! Kernels: the falloff of a ball, its slope and its inverse.
 
 use std::fmt;
 
@@ -25,7 +17,25 @@ impl Exponent {
     }
 }
 
-/// The falloff shared by all balls of a scene.
+/// The falloff k(s), s = r²/R², shared by all balls of a scene: 1 at the centre, falling, 0 from the
+/// support radius R on.
+///
+/// Formulas are in the *depth* v = 1 − s, which is a parabola along any ray:
+///
+/// | kernel | k | source |
+/// | --- | --- | --- |
+/// | power α | v^α | Gourmel et al. 2010, section 2.1; α = 2 is Kanamori's quartic |
+/// | Wyvill | v²(5 + 4v)/9 | the polynomial of degree six in r of Kanamori et al. 2008, rewritten in v |
+/// | Perlin | (1−ρ)³(1 + 3ρ + 6ρ²), ρ = r/R | 1 − 10ρ³ + 15ρ⁴ − 6ρ⁵ of Illés and Szécsi, as a product, which does not cancel at the rim |
+///
+/// ```
+/// use metaball_core::{Kernel, Metaball, glam::Vec3};
+///
+/// let ball = Metaball::new(Vec3::ZERO, 2.0);
+/// assert_eq!(Kernel::QUARTIC.value(0.5), 0.25);
+/// // Alone, this ball is a sphere of half its support radius under T = 9/16.
+/// assert_eq!(Kernel::QUARTIC.core_radius(&ball, 0.5625), Some(1.0));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kernel {
     /// (1 − r²/R²)^α. Make one with [`Kernel::power`].
@@ -36,7 +46,7 @@ pub enum Kernel {
     Perlin,
 }
 
-/// What is wrong with a kernel's description.
+/// An exponent that no power kernel has.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("kernel exponent: needed an integer from 1 to 8, found {found}")]
 pub struct ExponentError {
@@ -102,7 +112,7 @@ impl Kernel {
         }
     }
 
-    /// The kernel in f32, as tracers evaluate it, in v = 1 − r²/R²; 0 for v ≤ 0.
+    /// The kernel in f32 at depth v = 1 − r²/R², in the order of operations of the shaders; 0 for v ≤ 0.
     #[inline]
     pub fn value_at_depth(self, v: f32) -> f32 {
         let v = v.max(0.0);

@@ -37,9 +37,10 @@
 //! | from 2 on | | the method's own | |
 //!
 //! # Writing a method
-//! A method can live in any crate that depends on this one; `crates/metaball-core/src/gpu/tests/sphere.rs`
-//! and `sphere.wgsl` in the same folder are the smallest whole one. Its shader is a [`ShaderModule`], whose
-//! WGSL imports what the table above names; of this one the ray's direction is the hit's normal:
+//! A method can live in any crate that depends on this one. Its shader is a [`ShaderModule`] that imports
+//! the modules of the table above; `crates/metaball-core/src/gpu/tests/sphere.rs` and
+//! `crates/metaball-core/src/gpu/tests/sphere.wgsl` are a small one that reads balls, counts work and
+//! grows. The method below reads nothing but rays: all its hits are at t = 1 and face the eye.
 //!
 //! ```
 //! use metaball_core::gpu::*;
@@ -123,8 +124,8 @@
 //!   [`frame_facts`](IsoRenderer::frame_facts); memory is in [`BuildReport::device_bytes`] and
 //!   [`frame_bytes`](IsoRenderer::frame_bytes).
 //!
-//! A method never makes or changes rays, shades, blends over its hits, measures time, submits, waits or
-//! reads back in `encode`, or writes to another method's or the frame's buffers but through these functions.
+//! A method never makes or changes rays, shades, or measures time; it never submits, waits or reads back
+//! in `encode`; and it writes the buffers of groups 0 and 1 through these functions alone.
 //!
 //! # Free rays
 //! A method that traces any ray returns a [`RayTracer`] from [`IsoRenderer::ray_tracer`]. It answers the

@@ -81,6 +81,7 @@ impl ViewUniform {
 
 impl Targets {
     /// Makes the targets of an image size, with blended colours and with work counters if wanted.
+    /// Methods that draw to them have to be specialised for the same.
     ///
     /// # Errors
     /// When the picture has no pixels or more than the adapter can bind or dispatch.
