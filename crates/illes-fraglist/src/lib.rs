@@ -82,18 +82,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod balls;
 mod canvas;
 mod deviation;
+mod gather;
+mod layouts;
+mod lists;
 mod options;
 mod pipelines;
-mod radix;
-mod raster;
 mod renderer;
 mod sort;
-mod tiles;
+#[cfg(test)]
+mod tests;
 
-pub use canvas::ListStats;
 pub use deviation::{Deviation, cubic_deviation};
+pub use lists::ListStats;
 pub use options::{
     ARRAY_CAPACITY, Gather, LIST_CAPACITY, Options, Piece, ROOT_TOLERANCE, Sort, TILE_CAPACITY,
 };

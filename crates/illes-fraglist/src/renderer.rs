@@ -3,16 +3,15 @@
 use std::time::{Duration, Instant};
 
 use metaball_core::gpu::{
-    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderError, SceneBuffers, Specialization,
-    Targets,
+    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderError, Specialization, Targets,
 };
-use metaball_core::{Scene, Support, View};
+use metaball_core::{Scene, View};
 
-use crate::canvas::{Canvas, ListStats, Rooms};
+use crate::balls::Balls;
+use crate::canvas::{Canvas, Capacities};
+use crate::lists::ListStats;
 use crate::options::{Gather, Options, TILE_CAPACITY};
-use crate::pipelines::{GatherPasses, Pipelines};
-use crate::radix::SortRoom;
-use crate::sort::by_effective_distance;
+use crate::pipelines::Pipelines;
 
 /// Entries of tiles that a renderer begins with: 1 MB.
 const FIRST_ENTRIES: u32 = 1 << 18;
@@ -22,26 +21,13 @@ pub struct Renderer {
     name: &'static str,
     options: Options,
     counting: bool,
-    /// What a picture must have room for.
-    rooms: Rooms,
+    /// How much the next canvas can hold.
+    capacities: Capacities,
     /// Dispatches of the cast after the first.
     resumes: u32,
     pipelines: Option<Pipelines>,
-    built: Option<Built>,
+    balls: Option<Balls>,
     canvas: Option<Canvas>,
-}
-
-/// What depends on the scene.
-pub(crate) struct Built {
-    pub(crate) scene: SceneBuffers,
-    /// Kept to be sorted for each frame.
-    supports: Vec<Support>,
-    ball_of_rank: wgpu::Buffer,
-    /// Where balls are sorted on the device.
-    sort_room: Option<SortRoom>,
-    pub(crate) bind_group: wgpu::BindGroup,
-    upload_bytes: u64,
-    device_bytes: u64,
 }
 
 impl Renderer {
@@ -56,10 +42,10 @@ impl Renderer {
             name,
             options,
             counting,
-            rooms: Rooms { nodes: options.first_nodes, entries },
+            capacities: Capacities { nodes: options.first_nodes, entries },
             resumes: 0,
             pipelines: None,
-            built: None,
+            balls: None,
             canvas: None,
         }
     }
@@ -69,14 +55,14 @@ impl Renderer {
     /// # Errors
     /// When the device fails.
     pub fn list_stats(&self, gpu: &Gpu) -> Result<Option<ListStats>, RenderError> {
-        self.canvas.as_ref().map(|canvas| canvas.stats(gpu)).transpose()
+        self.canvas.as_ref().map(|canvas| canvas.lists.stats(gpu)).transpose()
     }
 
     /// How many balls are in each pixel's list, row by row from the top left. Draws a frame of its own
     /// up to the lists, again where the pool was too small; nothing is cast.
     ///
     /// # Errors
-    /// When there is no scene, or no room for the lists.
+    /// When there is no scene, or the lists exceed what the adapter binds.
     pub fn list_lengths(
         &mut self,
         gpu: &Gpu,
@@ -89,9 +75,8 @@ impl Renderer {
             let status = frame.finish()?.status;
             if status.is_complete() {
                 let canvas = self.canvas.as_ref();
-                return canvas
-                    .ok_or(RenderError::NotBuilt { method: self.name })?
-                    .list_lengths(gpu);
+                let canvas = canvas.ok_or(RenderError::NotBuilt { method: self.name })?;
+                return canvas.lists.lengths(gpu);
             }
             self.grow(gpu, &status)?;
         }
@@ -100,39 +85,31 @@ impl Renderer {
     /// The balls of the last frame in their order.
     #[cfg(test)]
     pub(crate) fn order(&self, gpu: &Gpu) -> Result<Option<Vec<u32>>, RenderError> {
-        self.built.as_ref().map(|built| gpu.read(&built.ball_of_rank)).transpose()
+        self.balls.as_ref().map(|balls| balls.order(gpu)).transpose()
     }
 
     /// The passes up to the lists.
     fn record_lists(&mut self, frame: &mut Frame<'_>) -> Result<(), RenderError> {
-        let (Some(pipelines), Some(built)) = (&self.pipelines, &self.built) else {
+        let (Some(pipelines), Some(balls)) = (&self.pipelines, &self.balls) else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
         let (gpu, targets) = (frame.gpu(), frame.targets());
         let canvas = match self.canvas.take() {
-            Some(canvas) if canvas.fits(targets, self.rooms) => canvas,
-            _ => Canvas::new(gpu, &pipelines.layouts, targets, self.rooms)?,
+            Some(canvas) if canvas.fits(targets, self.capacities) => canvas,
+            _ => Canvas::new(gpu, &pipelines.layouts, targets, self.capacities)?,
         };
         let canvas = self.canvas.insert(canvas);
 
-        match (&pipelines.radix, &built.sort_room) {
-            (Some(radix), Some(room)) => radix.record(frame, built.scene.bind_group(), room),
+        match (&pipelines.sort, &balls.sort_buffers) {
+            (Some(radix), Some(buffers)) => radix.record(frame, balls.scene.bind_group(), buffers),
             _ => {
                 // With the transfer, as in the paper's table 1.
                 let camera = frame.view().camera();
-                frame.cpu("sort", || {
-                    let order = by_effective_distance(&built.supports, camera);
-                    let bytes = bytemuck::cast_slice(&order);
-                    gpu.checked(|| gpu.queue.write_buffer(&built.ball_of_rank, 0, bytes))
-                })?;
+                frame.cpu("sort", || balls.sort(gpu, camera))?;
             }
         }
         canvas.clear(frame.encoder());
-        match (&pipelines.gather, &canvas.tiles) {
-            (GatherPasses::Raster(passes), _) => passes.record(frame, built, canvas),
-            (GatherPasses::Tiles(passes), Some(tiles)) => passes.record(frame, built, tiles),
-            (GatherPasses::Tiles(_), None) => unreachable!("rooms has entries for tiles"),
-        }
+        pipelines.gather.record(frame, balls, canvas);
         Ok(())
     }
 }
@@ -143,7 +120,7 @@ impl IsoRenderer for Renderer {
     }
 
     fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError> {
-        self.built = None;
+        self.balls = None;
         let piece = self.options.piece;
         if let Some(reason) = piece.refusal(scene.kernel()) {
             return Err(RenderError::Unsupported { method: self.name, reason });
@@ -156,24 +133,24 @@ impl IsoRenderer for Renderer {
         };
         let compilation = start.elapsed();
 
-        let built = Built::new(gpu, scene, &pipelines)?;
+        let balls = Balls::new(gpu, scene, &pipelines.layouts, self.options.sort)?;
         let report = BuildReport {
             // The order of the balls is the only structure, and belongs to the frame.
             structure: Duration::ZERO,
             pipelines: compilation,
-            upload_bytes: built.upload_bytes,
-            device_bytes: built.device_bytes,
+            upload_bytes: balls.upload_bytes(),
+            device_bytes: balls.device_bytes(),
             facts: Vec::new(),
         };
         self.pipelines = Some(pipelines);
-        self.built = Some(built);
+        self.balls = Some(balls);
         Ok(report)
     }
 
     fn encode(&mut self, frame: &mut Frame<'_>) -> Result<(), RenderError> {
         self.record_lists(frame)?;
-        let (Some(pipelines), Some(built), Some(canvas)) =
-            (&self.pipelines, &self.built, &self.canvas)
+        let (Some(pipelines), Some(balls), Some(canvas)) =
+            (&self.pipelines, &self.balls, &self.canvas)
         else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
@@ -184,8 +161,8 @@ impl IsoRenderer for Renderer {
             frame.compute(label, |pass| {
                 pass.set_pipeline(&pipelines.cast);
                 pass.set_bind_group(0, targets.bind_group(), &[]);
-                pass.set_bind_group(1, built.scene.bind_group(), &[]);
-                pass.set_bind_group(2, &built.bind_group, &[]);
+                pass.set_bind_group(1, balls.scene.bind_group(), &[]);
+                pass.set_bind_group(2, &balls.bind_group, &[]);
                 pass.set_bind_group(3, &canvas.bind_group, &[]);
                 pass.dispatch_workgroups(columns, rows, 1);
             });
@@ -207,8 +184,8 @@ impl IsoRenderer for Renderer {
                 "needed at most {TILE_CAPACITY} balls over a tile, found {fullest}"
             ));
         }
-        let has_entries = self.rooms.entries.is_none_or(|room| room >= entries);
-        if nodes <= self.rooms.nodes && has_entries {
+        let entries_fit = self.capacities.entries.is_none_or(|capacity| capacity >= entries);
+        if nodes <= self.capacities.nodes && entries_fit {
             if longest > 0 {
                 return refuse(format!(
                     "needed at most {} balls along a ray before its core, found more",
@@ -217,55 +194,8 @@ impl IsoRenderer for Renderer {
             }
             self.resumes = (2 * self.resumes).max(1);
         }
-        self.rooms.nodes = self.rooms.nodes.max(nodes);
-        self.rooms.entries = self.rooms.entries.map(|room| room.max(entries));
+        self.capacities.nodes = self.capacities.nodes.max(nodes);
+        self.capacities.entries = self.capacities.entries.map(|capacity| capacity.max(entries));
         Ok(true)
-    }
-}
-
-impl Built {
-    /// Number of balls.
-    pub(crate) fn len(&self) -> u32 {
-        self.supports.len() as u32
-    }
-
-    fn new(gpu: &Gpu, scene: &Scene, pipelines: &Pipelines) -> Result<Self, RenderError> {
-        let none = wgpu::BufferUsages::empty();
-        let core_radii: Vec<f32> = scene
-            .balls()
-            .map(|ball| {
-                let radius = scene.kernel().core_radius(&ball, scene.threshold());
-                radius.map_or(0.0, |radius| radius as f32)
-            })
-            .collect();
-        let buffers = SceneBuffers::new(gpu, scene)?;
-        let core_radii = gpu.upload("illes core radii", &core_radii, none)?;
-        let ball_of_rank = gpu.storage("illes order", 4 * scene.len() as u64, none)?;
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        let bind_group = gpu.checked(|| {
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("illes balls"),
-                layout: &pipelines.layouts.balls,
-                entries: &[
-                    entry(0, ball_of_rank.as_entire_binding()),
-                    entry(1, core_radii.as_entire_binding()),
-                ],
-            })
-        })?;
-        let balls = scene.len() as u32;
-        let radix = pipelines.radix.as_ref();
-        let sort_room = radix.map(|radix| radix.room(gpu, balls, &ball_of_rank)).transpose()?;
-        let upload_bytes = buffers.bytes() + core_radii.size();
-        let device_bytes =
-            upload_bytes + ball_of_rank.size() + sort_room.as_ref().map_or(0, SortRoom::bytes);
-        Ok(Self {
-            scene: buffers,
-            supports: scene.supports().to_vec(),
-            ball_of_rank,
-            sort_room,
-            bind_group,
-            upload_bytes,
-            device_bytes,
-        })
     }
 }

@@ -17,6 +17,8 @@ pub enum Binding {
     TextureArray,
     /// `texture_depth_2d`, as [`Binding::Texture`].
     Depth,
+    /// `texture_storage_2d<…, write>` of a format, seen by compute stages.
+    WriteTexture(wgpu::TextureFormat),
 }
 
 /// What is bound.
@@ -60,7 +62,11 @@ pub fn bind_group_layout(
         .iter()
         .map(|&(binding, kind)| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: if kind == Binding::Write { writers } else { readers },
+            visibility: match kind {
+                Binding::Write => writers,
+                Binding::WriteTexture(_) => ShaderStages::COMPUTE,
+                _ => readers,
+            },
             ty: match kind {
                 Binding::Uniform => buffer(BufferBindingType::Uniform),
                 Binding::Read => buffer(BufferBindingType::Storage { read_only: true }),
@@ -68,6 +74,11 @@ pub fn bind_group_layout(
                 Binding::Texture => texture(exact, TextureViewDimension::D2),
                 Binding::TextureArray => texture(exact, TextureViewDimension::D2Array),
                 Binding::Depth => texture(wgpu::TextureSampleType::Depth, TextureViewDimension::D2),
+                Binding::WriteTexture(format) => BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::WriteOnly,
+                    format,
+                    view_dimension: TextureViewDimension::D2,
+                },
             },
             count: None,
         })

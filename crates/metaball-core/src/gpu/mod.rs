@@ -157,6 +157,7 @@ mod frame;
 mod free_ray;
 mod layout;
 mod pipeline;
+mod raster;
 mod ray_list;
 mod ray_tracer;
 mod rays;
@@ -168,6 +169,7 @@ mod status;
 mod targets;
 #[cfg(test)]
 mod tests;
+mod tile_bins;
 
 pub use adapter::{AdapterChoice, AdapterReport, GpuError};
 pub use batch::RayBatch;
@@ -176,7 +178,8 @@ pub use error::RenderError;
 pub use frame::{Frame, FrameReport, RenderAttachments};
 pub use free_ray::{FreeRay, RayQuery};
 pub use layout::{Binding, Resource, bind_group, bind_group_layout};
-pub use pipeline::{Shader, Specialization, compute_pipeline, pipeline_layout};
+pub use pipeline::{Shader, Specialization, compute_pipeline, pipeline_layout, workgroup_grid};
+pub use raster::{DepthTest, RasterDescriptor, TRIANGLE_STRIP};
 pub use ray_tracer::RayTracer;
 pub use rays::PackedRay;
 pub use renderer::{BuildReport, IsoRenderer, render, render_with};
@@ -184,6 +187,7 @@ pub use scene_buffers::{KernelRead, SceneBuffers, SceneHeader, scene_layout};
 pub use shade::Shading;
 pub use status::FrameStatus;
 pub use targets::{TILE, Targets, ViewUniform, frame_layout, free_ray_layout};
+pub use tile_bins::{TileBinning, TileBins};
 
 pub use crate::{Image, Picture, Shaded, ValueRange, Work, WorkKind};
 /// A WGSL file of a method.

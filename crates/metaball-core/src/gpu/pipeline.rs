@@ -227,6 +227,13 @@ pub fn pipeline_layout(
     })
 }
 
+/// Columns and rows of a dispatch of so many workgroups, or a few more, at least one: a device promises
+/// no more than 65,535 of either. Invocations are `id.x + id.y * num_workgroups.x * workgroup_size`.
+pub fn workgroup_grid(workgroups: u32) -> (u32, u32) {
+    const COLUMNS: u32 = 32_768;
+    (workgroups.clamp(1, COLUMNS), workgroups.div_ceil(COLUMNS).max(1))
+}
+
 fn override_ids(module: &naga::Module) -> Vec<u16> {
     module.overrides.iter().filter_map(|(_, constant)| constant.id).collect()
 }

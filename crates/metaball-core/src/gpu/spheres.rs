@@ -5,7 +5,9 @@ use glam::Vec3;
 
 use super::layout::{Binding, bind_group, bind_group_layout};
 use super::targets::ViewUniform;
-use super::{Gpu, RenderError, Shader, Specialization, Targets, pipeline_layout};
+use super::{
+    DepthTest, Gpu, RasterDescriptor, RenderError, Shader, Specialization, TRIANGLE_STRIP, Targets,
+};
 use crate::{Image, Scene, View};
 
 const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -43,22 +45,33 @@ impl SpherePicture {
         let buffer = gpu.upload("core spheres", &spheres, wgpu::BufferUsages::empty())?;
         let view_layout = bind_group_layout(gpu, "view", &[(0, Binding::Uniform)]);
         let sphere_layout = bind_group_layout(gpu, "core spheres", &[(0, Binding::Read)]);
-        let shader =
-            Shader::new(gpu, "spheres", "shade/spheres", &Specialization::without_balls())?;
-        let layouts = [&view_layout, &sphere_layout];
-        let (background, foreground) = gpu.checked(|| {
-            (
-                pipeline(gpu, &shader, &layouts, "cover_picture", "shade_background"),
-                pipeline(gpu, &shader, &layouts, "bound_sphere", "shade_sphere"),
-            )
-        })?;
+        let spec = Specialization::without_balls();
+        let shader = Shader::new(gpu, "spheres", "shade/spheres", &spec)?;
+        let pipeline = |vertex, fragment| {
+            let descriptor = RasterDescriptor {
+                label: fragment,
+                vertex,
+                fragment,
+                constants: &[],
+                layouts: &[&view_layout, &sphere_layout],
+                primitive: TRIANGLE_STRIP,
+                targets: &[Some(COLOR_FORMAT.into())],
+                // Depth falls with distance; the background's is 0, as the clear value.
+                depth: Some(DepthTest {
+                    format: DEPTH_FORMAT,
+                    compare: wgpu::CompareFunction::GreaterEqual,
+                    writes: true,
+                }),
+            };
+            shader.raster(gpu, &spec, &descriptor)
+        };
         Ok(Self {
             spheres: buffer,
             count: spheres.len() as u32,
+            background: pipeline("cover_picture", "shade_background")?,
+            foreground: pipeline("bound_sphere", "shade_sphere")?,
             sphere_layout,
             view_layout,
-            background,
-            foreground,
         })
     }
 
@@ -69,30 +82,16 @@ impl SpherePicture {
         view: &View,
     ) -> Result<Image, RenderError> {
         let (width, height) = (targets.width(), targets.height());
-        let largest = gpu.device.limits().max_texture_dimension_2d;
-        if width > largest || height > largest {
-            return Err(RenderError::PictureSize { width, height, limit: largest });
-        }
+        let texture =
+            |label, format, usages| gpu.render_target(label, format, (width, height), 1, usages);
+        let color = texture("picture", COLOR_FORMAT, wgpu::TextureUsages::COPY_SRC)?;
+        let depth = texture("depth", DEPTH_FORMAT, wgpu::TextureUsages::empty())?;
         let uniform = gpu.upload("view", &[ViewUniform::new(view)], wgpu::BufferUsages::UNIFORM)?;
-        let texture = |label, format, usage| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                view_formats: &[],
-            })
-        };
         // A row of a copied texture begins at a multiple of 256 bytes.
         let row_bytes = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let bytes = u64::from(row_bytes) * u64::from(height);
         let rows = gpu.storage("picture", bytes, wgpu::BufferUsages::empty())?;
         gpu.checked(|| {
-            let color = texture("picture", COLOR_FORMAT, wgpu::TextureUsages::COPY_SRC);
-            let depth = texture("depth", DEPTH_FORMAT, wgpu::TextureUsages::empty());
             let view_group = bind_group(gpu, "view", &self.view_layout, &[(0, &uniform)]);
             let sphere_group =
                 bind_group(gpu, "core spheres", &self.sphere_layout, &[(0, &self.spheres)]);
@@ -170,44 +169,4 @@ fn core_spheres(scene: &Scene) -> Vec<CoreSphere> {
         sphere.half_depth = smallest;
     }
     spheres
-}
-
-fn pipeline(
-    gpu: &Gpu,
-    shader: &Shader,
-    layouts: &[&wgpu::BindGroupLayout],
-    vertex: &str,
-    fragment: &str,
-) -> wgpu::RenderPipeline {
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(fragment),
-        layout: Some(&pipeline_layout(gpu, "spheres", layouts)),
-        vertex: wgpu::VertexState {
-            module: &shader.module,
-            entry_point: Some(vertex),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState {
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            ..wgpu::PrimitiveState::default()
-        },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            // Depth falls with distance; the background's is 0, as the clear value.
-            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &shader.module,
-            entry_point: Some(fragment),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(COLOR_FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }
