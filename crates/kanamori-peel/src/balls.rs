@@ -4,8 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError, SceneBuffers, bind_group};
 use metaball_core::{Aabb, Scene, View};
 
-use crate::MOST_LIST_CAPACITY;
-use crate::pipelines::Layouts;
+use crate::layouts::Layouts;
+use crate::options::MOST_LIST_CAPACITY;
 
 /// Balls of a workgroup of the passes over balls: `LANES` of `arrange.wgsl`.
 const LANES: u32 = 256;

@@ -14,6 +14,7 @@
 //! points coincide, so that answers are right up to the threshold of clipping.
 
 mod bernstein;
+mod chord;
 mod clipping;
 mod intervals;
 mod middle_split;
@@ -23,7 +24,8 @@ use std::time::{Duration, Instant};
 use metaball_core::{Kernel, Ray, Scene};
 use rayon::prelude::*;
 
-use self::intervals::{Chord, Intervals};
+use self::chord::Chord;
+use self::intervals::Intervals;
 use self::middle_split::Tree;
 
 /// A scene made ready for rays. Borrows it.

@@ -2,7 +2,7 @@
 
 use metaball_core::gpu::{Gpu, RenderError, bind_group};
 
-use crate::pipelines::{DEPTH_FORMAT, LIST_FORMAT, Layouts, POINT_FORMAT};
+use crate::layouts::{DEPTH_FORMAT, LIST_FORMAT, Layouts, POINT_FORMAT};
 
 /// Textures of one picture size.
 pub(crate) struct Layers {

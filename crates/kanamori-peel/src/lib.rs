@@ -76,13 +76,16 @@
 //! 16,640,000 balls: indices are kept as f32.
 
 pub mod baseline;
+pub mod robust;
 
 mod balls;
 mod layers;
+mod layouts;
 mod options;
+mod passes;
 mod pipelines;
+mod registration;
 mod renderer;
-pub mod robust;
 #[cfg(test)]
 mod tests;
 mod tiles;

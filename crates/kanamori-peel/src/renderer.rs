@@ -5,20 +5,21 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use metaball_core::Scene;
 use metaball_core::gpu::{
-    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderAttachments, RenderError,
-    Specialization, Targets,
+    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderError, Specialization,
 };
 
 use crate::balls::{Balls, MOST_BALLS};
 use crate::layers::Layers;
+use crate::options::{Options, Registration};
+use crate::passes::Passes;
 use crate::pipelines::Pipelines;
-use crate::tiles::{Grid, TileRoom, register, supports};
-use crate::{Options, Registration};
+use crate::registration::register;
+use crate::tiles::{Grid, TileBuffers};
 
-/// Layers that a frame begins life with.
+/// Layers that a renderer's first frame has.
 const FIRST_LAYERS: u32 = 64;
 
-/// Room for registrations that a scene begins with, a ball.
+/// Registrations for each ball that a scene's buffers begin with.
 const FIRST_REGISTRATIONS: u32 = 4;
 
 /// The most layers: two points for each of the most balls.
@@ -34,7 +35,7 @@ pub struct Renderer {
     balls: Option<Balls>,
     /// For the host's registration.
     supports: Vec<(Vec3, f32)>,
-    tiles: Option<TileRoom>,
+    tiles: Option<TileBuffers>,
     layers: Option<Layers>,
 }
 
@@ -55,10 +56,10 @@ impl Renderer {
         }
     }
 
-    /// Registrations that there is room for.
+    /// Registrations that the tiles' buffers hold.
     #[cfg(test)]
-    pub(crate) fn registration_room(&self) -> Option<u32> {
-        self.tiles.as_ref().map(|tiles| tiles.room)
+    pub(crate) fn registration_capacity(&self) -> Option<u32> {
+        self.tiles.as_ref().map(|tiles| tiles.capacity)
     }
 
     /// Rectangles of the last frame.
@@ -90,9 +91,9 @@ impl IsoRenderer for Renderer {
         let compilation = start.elapsed();
 
         let balls = Balls::new(gpu, scene, &pipelines.layouts)?;
-        let room = FIRST_REGISTRATIONS.saturating_mul(balls.count.max(1));
+        let capacity = FIRST_REGISTRATIONS.saturating_mul(balls.count.max(1));
         let tiles =
-            TileRoom::new(gpu, &balls, &pipelines.layouts, self.options.registration, room)?;
+            TileBuffers::new(gpu, &balls, &pipelines.layouts, self.options.registration, capacity)?;
         let report = BuildReport {
             // The method has no structure.
             structure: Duration::ZERO,
@@ -102,7 +103,7 @@ impl IsoRenderer for Renderer {
             facts: Vec::new(),
         };
         self.supports = match self.options.registration {
-            Registration::Host => supports(scene),
+            Registration::Host => scene.balls().map(|ball| (ball.center, ball.radius)).collect(),
             Registration::Device => Vec::new(),
         };
         self.layers = None;
@@ -128,26 +129,27 @@ impl IsoRenderer for Renderer {
         if self.options.registration == Registration::Host {
             let (of_tiles, registered) =
                 frame.cpu("register", || register(&self.supports, view, &grid));
-            if registered.len() > tiles.room as usize {
-                let room = registered.len().next_power_of_two().min(u32::MAX as usize) as u32;
-                *tiles = TileRoom::new(gpu, balls, &pipelines.layouts, Registration::Host, room)?;
+            if registered.len() > tiles.capacity as usize {
+                let capacity = registered.len().next_power_of_two().min(u32::MAX as usize) as u32;
+                *tiles =
+                    TileBuffers::new(gpu, balls, &pipelines.layouts, Registration::Host, capacity)?;
             }
             tiles.fill(gpu, &of_tiles, &registered)?;
         }
 
-        let drawing = Drawing { pipelines, balls, tiles, layers: &layers, options: &self.options };
+        let passes = Passes { pipelines, balls, tiles, layers: &layers, options: &self.options };
         balls.begin(gpu, view, frame.encoder())?;
-        drawing.arrange(frame);
+        passes.arrange(frame);
         if self.options.registration == Registration::Device {
-            drawing.register(frame);
+            passes.register(frame);
         }
-        drawing.begin(frame);
+        passes.begin(frame);
         for layer in 0..self.layer_limit {
-            drawing.turn(frame);
-            drawing.peel(frame, layer, &grid);
-            drawing.test(frame, layer);
+            passes.turn(frame);
+            passes.peel(frame, layer, &grid);
+            passes.test(frame, layer);
         }
-        drawing.account(frame);
+        passes.account(frame);
         self.layers = Some(layers);
         Ok(())
     }
@@ -173,7 +175,7 @@ impl IsoRenderer for Renderer {
         ])
     }
 
-    /// As much room as the tiles' balls take, or twice as many layers.
+    /// Larger buffers where the tiles have more balls than they hold, or else twice as many layers.
     fn grow(&mut self, gpu: &Gpu, status: &FrameStatus) -> Result<bool, RenderError> {
         let (Some(pipelines), Some(balls), Some(tiles)) =
             (&self.pipelines, &self.balls, &mut self.tiles)
@@ -181,10 +183,15 @@ impl IsoRenderer for Renderer {
             return Err(RenderError::NotBuilt { method: self.name });
         };
         let [registrations, ..] = status.needed;
-        if registrations > tiles.room {
-            let room = registrations.checked_next_power_of_two().unwrap_or(registrations);
-            *tiles =
-                TileRoom::new(gpu, balls, &pipelines.layouts, self.options.registration, room)?;
+        if registrations > tiles.capacity {
+            let capacity = registrations.checked_next_power_of_two().unwrap_or(registrations);
+            *tiles = TileBuffers::new(
+                gpu,
+                balls,
+                &pipelines.layouts,
+                self.options.registration,
+                capacity,
+            )?;
             return Ok(true);
         }
         if self.layer_limit == MOST_LAYERS {
@@ -192,151 +199,5 @@ impl IsoRenderer for Renderer {
         }
         self.layer_limit = self.layer_limit.saturating_mul(2).min(MOST_LAYERS);
         Ok(true)
-    }
-}
-
-/// The passes of a frame.
-struct Drawing<'a> {
-    pipelines: &'a Pipelines,
-    balls: &'a Balls,
-    tiles: &'a TileRoom,
-    layers: &'a Layers,
-    options: &'a Options,
-}
-
-impl Drawing<'_> {
-    /// Rectangles, culling by kernel spheres, and the balls around the eye.
-    fn arrange(&self, frame: &mut Frame<'_>) {
-        let (pipelines, balls) = (self.pipelines, self.balls);
-        let targets = frame.targets();
-        frame.compute("place", |pass| {
-            self.bind_compute(pass, targets, &balls.arranging);
-            pass.set_pipeline(&pipelines.place);
-            pass.dispatch_workgroups(balls.workgroups(), 1, 1);
-        });
-        let vertices = 0..self.options.outline.vertices();
-        // Without culling the depth stays empty, and ends no ray.
-        let kernels = RenderAttachments { colors: &[], depth: Some(self.layers.kernels()) };
-        frame.render("kernel spheres", kernels, |pass| {
-            if self.options.culling {
-                self.bind(pass, targets);
-                pass.set_pipeline(&pipelines.kernels);
-                pass.draw(vertices.clone(), 0..balls.count);
-            }
-        });
-        if self.options.culling {
-            let depth = Some(self.layers.kernels_done());
-            frame.render("seen", RenderAttachments { colors: &[], depth }, |pass| {
-                self.bind(pass, targets);
-                pass.set_bind_group(3, &self.layers.seeing, &[]);
-                pass.set_pipeline(&pipelines.see);
-                pass.draw(vertices, 0..balls.count);
-            });
-        }
-        frame.compute("arrange", |pass| {
-            self.bind_compute(pass, targets, &balls.arranging);
-            pass.set_pipeline(&pipelines.count);
-            pass.dispatch_workgroups(balls.workgroups(), 1, 1);
-            pass.set_pipeline(&pipelines.total);
-            pass.dispatch_workgroups(1, 1, 1);
-            pass.set_pipeline(&pipelines.spread);
-            pass.dispatch_workgroups(balls.workgroups(), 1, 1);
-        });
-    }
-
-    /// The tiles' balls.
-    fn register(&self, frame: &mut Frame<'_>) {
-        let (pipelines, targets) = (self.pipelines, frame.targets());
-        frame.compute("register", |pass| {
-            self.bind_compute(pass, targets, &self.tiles.registering);
-            pass.set_pipeline(&pipelines.tally);
-            pass.dispatch_workgroups(self.balls.workgroups(), 1, 1);
-            pass.set_pipeline(&pipelines.assign);
-            pass.dispatch_workgroups(1, 1, 1);
-            pass.set_pipeline(&pipelines.fill);
-            pass.dispatch_workgroups(self.balls.workgroups(), 1, 1);
-        });
-    }
-
-    /// The lists that rays begin with.
-    fn begin(&self, frame: &mut Frame<'_>) {
-        let targets = frame.targets();
-        self.tiles.begin(frame.encoder());
-        let colors = self.layers.written_before(0);
-        frame.render("begin", RenderAttachments { colors: &colors, depth: None }, |pass| {
-            self.bind(pass, targets);
-            // Nothing of group 3 is read: that of layer 1 has none of the targets.
-            pass.set_bind_group(3, self.layers.testing(1), &[]);
-            pass.set_pipeline(&self.pipelines.begin);
-            pass.draw(0..4, 0..1);
-        });
-    }
-
-    /// What the tiles draw in the next layer.
-    fn turn(&self, frame: &mut Frame<'_>) {
-        let targets = frame.targets();
-        frame.compute("turn", |pass| {
-            self.bind_compute(pass, targets, &self.tiles.turning);
-            pass.set_pipeline(&self.pipelines.turn);
-            pass.dispatch_workgroups(1, 1, 1);
-        });
-    }
-
-    /// The layer's points, tile by tile in one pass.
-    fn peel(&self, frame: &mut Frame<'_>, layer: u32, grid: &Grid) {
-        let targets = frame.targets();
-        let attachments = RenderAttachments {
-            colors: &[self.layers.points()],
-            depth: Some(self.layers.point_depth()),
-        };
-        frame.render("peel", attachments, |pass| {
-            self.bind(pass, targets);
-            pass.set_bind_group(3, self.layers.peeling(layer), &[]);
-            pass.set_pipeline(&self.pipelines.peel);
-            for (draw, [x, y, width, height]) in grid.scissors() {
-                pass.set_scissor_rect(x, y, width, height);
-                pass.draw_indirect(&self.tiles.draws, draw);
-            }
-        });
-    }
-
-    /// The search of the layer's intervals, and the lists after it.
-    fn test(&self, frame: &mut Frame<'_>, layer: u32) {
-        let targets = frame.targets();
-        let colors = self.layers.written_before(layer + 1);
-        frame.render("test", RenderAttachments { colors: &colors, depth: None }, |pass| {
-            self.bind(pass, targets);
-            pass.set_bind_group(3, self.layers.testing(layer), &[]);
-            pass.set_pipeline(&self.pipelines.test);
-            pass.draw(0..4, 0..self.options.tiles * self.options.tiles);
-        });
-    }
-
-    /// The count of rays that no layer answered.
-    fn account(&self, frame: &mut Frame<'_>) {
-        let targets = frame.targets();
-        let (columns, rows) = targets.workgroups();
-        frame.compute("account", |pass| {
-            pass.set_bind_group(0, targets.bind_group(), &[]);
-            pass.set_pipeline(&self.pipelines.account);
-            pass.dispatch_workgroups(columns, rows, 1);
-        });
-    }
-
-    fn bind_compute(
-        &self,
-        pass: &mut wgpu::ComputePass<'_>,
-        targets: &Targets,
-        group: &wgpu::BindGroup,
-    ) {
-        pass.set_bind_group(0, targets.bind_group(), &[]);
-        pass.set_bind_group(1, self.balls.scene.bind_group(), &[]);
-        pass.set_bind_group(2, group, &[]);
-    }
-
-    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, targets: &Targets) {
-        pass.set_bind_group(0, targets.bind_group(), &[]);
-        pass.set_bind_group(1, self.balls.scene.bind_group(), &[]);
-        pass.set_bind_group(2, &self.tiles.drawing, &[]);
     }
 }

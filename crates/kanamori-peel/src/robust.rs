@@ -28,57 +28,52 @@
 //! balls may reach one interval of a ray, and 131,072 one tile of 16 × 16 pixels: beyond that the frame is
 //! refused with the numbers. 24 bytes a pixel, 8 for each entry of a list.
 
-mod room;
+mod buffers;
 
 use std::time::{Duration, Instant};
 
 use metaball_core::Scene;
 use metaball_core::gpu::{
     BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RenderError, SceneBuffers, Shader,
-    Specialization, frame_layout, scene_layout,
+    Specialization, TileBinning, frame_layout, scene_layout,
 };
 
 #[cfg(test)]
-pub(crate) use self::room::{Entry, State};
-use self::room::{Room, room_layout};
+pub(crate) use self::buffers::{Entry, State};
+use self::buffers::{SearchBuffers, search_layout};
 
 /// The most balls whose supports may reach one interval of a ray: one walk along them must stay within
-/// the iterations of software Vulkan. `MOST_WINDOW` of `kanamori_robust/search.wgsl`.
+/// the iterations of software Vulkan. `MOST_WINDOW` of `shaders/wgsl/kanamori_robust/search.wgsl`.
 pub const INTERVAL_CAPACITY: u32 = 8_192;
 
 /// The most balls over a tile of 16 × 16 pixels, bounded by the iterations that sorting them takes.
-/// `MOST_ENTRIES` of `kanamori_robust/lists.wgsl`.
+/// `MOST_ENTRIES` of `shaders/wgsl/kanamori_robust/lists.wgsl`.
 pub const TILE_CAPACITY: u32 = 131_072;
 
 /// How far from the root a hit may be, in parts of the least support radius there, rounding aside: an
-/// interval that is shorter is not halved further. `SHORT` of `kanamori_robust/search.wgsl`.
+/// interval that is shorter is not halved further. `SHORT` of `shaders/wgsl/kanamori_robust/search.wgsl`.
 pub const ROOT_TOLERANCE: f64 = 1.0 / (1 << 20) as f64;
 
-/// Entries of all tiles that a renderer begins with: 2 MB.
+/// Entries of all tiles that the first buffers hold: 2 MB.
 const FIRST_ENTRIES: u32 = 1 << 18;
-
-/// Balls of a workgroup of `kanamori_robust/register.wgsl`, and workgroups of a row of a dispatch.
-const BALLS_OF_GROUP: u32 = 64;
-const GROUPS_OF_ROW: u32 = 32_768;
 
 /// Draws primary rays by registering balls with tiles and searching intervals.
 pub struct Renderer {
     name: &'static str,
     counting: bool,
+    /// Entries of all tiles that the next frame's buffers hold.
     entries: u32,
     /// Dispatches of the search after the first.
     resumes: u32,
     pipelines: Option<Pipelines>,
     scene: Option<(SceneBuffers, u32)>,
-    room: Option<Room>,
+    buffers: Option<SearchBuffers>,
 }
 
 struct Pipelines {
     specialization: Specialization,
-    room_layout: wgpu::BindGroupLayout,
-    count: wgpu::ComputePipeline,
-    place: wgpu::ComputePipeline,
-    fill: wgpu::ComputePipeline,
+    search_layout: wgpu::BindGroupLayout,
+    binning: TileBinning,
     sort: wgpu::ComputePipeline,
     search: wgpu::ComputePipeline,
 }
@@ -94,7 +89,7 @@ impl Renderer {
             resumes: 0,
             pipelines: None,
             scene: None,
-            room: None,
+            buffers: None,
         }
     }
 }
@@ -133,34 +128,27 @@ impl IsoRenderer for Renderer {
             return Err(RenderError::NotBuilt { method: self.name });
         };
         let size = (frame.view().width(), frame.view().height());
-        let room = match self.room.take() {
-            Some(room) if room.fits(size, self.entries) => room,
-            _ => Room::new(frame.gpu(), &pipelines.room_layout, size, self.entries)?,
+        let buffers = match self.buffers.take() {
+            Some(buffers) if buffers.fit(size, self.entries) => buffers,
+            _ => SearchBuffers::new(frame.gpu(), &pipelines.search_layout, size, self.entries)?,
         };
-        let room = self.room.insert(room);
-        room.clear(frame.encoder());
+        let buffers = self.buffers.insert(buffers);
+        buffers.clear(frame.encoder());
 
         let targets = frame.targets();
         let bind = |pass: &mut wgpu::ComputePass<'_>| {
             pass.set_bind_group(0, targets.bind_group(), &[]);
             pass.set_bind_group(1, scene.bind_group(), &[]);
-            pass.set_bind_group(2, &room.bind_group, &[]);
+            pass.set_bind_group(2, &buffers.bind_group, &[]);
         };
-        let groups = balls.div_ceil(BALLS_OF_GROUP).max(1);
-        let (columns, rows) = (groups.min(GROUPS_OF_ROW), groups.div_ceil(GROUPS_OF_ROW));
         frame.compute("register", |pass| {
             bind(pass);
-            pass.set_pipeline(&pipelines.count);
-            pass.dispatch_workgroups(columns, rows, 1);
-            pass.set_pipeline(&pipelines.place);
-            pass.dispatch_workgroups(1, 1, 1);
-            pass.set_pipeline(&pipelines.fill);
-            pass.dispatch_workgroups(columns, rows, 1);
+            pipelines.binning.record(pass, *balls);
         });
         frame.compute("sort", |pass| {
             bind(pass);
             pass.set_pipeline(&pipelines.sort);
-            pass.dispatch_workgroups(room.tiles(), 1, 1);
+            pass.dispatch_workgroups(buffers.tiles(), 1, 1);
         });
         let (columns, rows) = targets.workgroups();
         for dispatch in 0..=self.resumes {
@@ -200,27 +188,20 @@ impl IsoRenderer for Renderer {
 impl Pipelines {
     fn new(gpu: &Gpu, specialization: Specialization) -> Result<Self, RenderError> {
         let spec = &specialization;
-        let room_layout = gpu.checked(|| room_layout(gpu))?;
+        let search_layout = gpu.checked(|| search_layout(gpu))?;
         let (frame, scene) = (frame_layout(gpu, spec), scene_layout(gpu, spec));
-        let groups = [&frame, &scene, &room_layout];
+        let groups = [&frame, &scene, &search_layout];
         let shader = |module| Shader::new(gpu, module, module, spec);
         let register = shader("kanamori_robust/register")?;
-        let registering = |entry| register.compute(gpu, entry, entry, spec, &groups, &[]);
+        let search = shader("kanamori_robust/search")?;
+        let compute =
+            |shader: &Shader, entry| shader.compute(gpu, entry, entry, spec, &groups, &[]);
         Ok(Self {
             specialization,
-            count: registering("count_entries")?,
-            place: registering("place_tiles")?,
-            fill: registering("fill_entries")?,
-            sort: registering("sort_entries")?,
-            search: shader("kanamori_robust/search")?.compute(
-                gpu,
-                "search",
-                "search",
-                spec,
-                &groups,
-                &[],
-            )?,
-            room_layout,
+            binning: TileBinning::new(gpu, "register", &register, spec, &groups)?,
+            sort: compute(&register, "sort_entries")?,
+            search: compute(&search, "search")?,
+            search_layout,
         })
     }
 }

@@ -1,20 +1,20 @@
 //! The grid of tiles that the picture is divided into, and their balls (section 5.3).
 
+use std::ops::Range;
+
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, Vec3};
+use glam::DVec2;
 use metaball_core::gpu::{Gpu, RenderError, bind_group};
-use metaball_core::{Scene, View};
 
-use crate::Registration;
 use crate::balls::Balls;
-use crate::options::MOST_TILES;
-use crate::pipelines::Layouts;
+use crate::layouts::Layouts;
+use crate::options::{MOST_TILES, Registration};
 
-/// A tile's balls: WGSL's `Tile` of `tiles.wgsl`.
+/// A tile's balls: WGSL's `Tile` of `shaders/wgsl/kanamori_peel/tiles.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub(crate) struct Tile {
-    /// Place of the first among those registered.
+    /// Index of the first among the balls registered.
     pub(crate) first: u32,
     /// Their number.
     pub(crate) balls: u32,
@@ -22,11 +22,11 @@ pub(crate) struct Tile {
     pub(crate) is_live: u32,
 }
 
-/// Bytes of an indirect draw: WGSL's `Draw` of `turn.wgsl`.
+/// Bytes of an indirect draw: WGSL's `Draw` of `shaders/wgsl/kanamori_peel/turn.wgsl`.
 const DRAW_BYTES: u64 = 16;
 
 /// Elements of the buffers with one a tile.
-const ALL_TILES: u64 = MOST_TILES as u64 * MOST_TILES as u64;
+pub(crate) const ALL_TILES: u64 = MOST_TILES as u64 * MOST_TILES as u64;
 
 /// The tiles of a picture, row by row from the top left.
 #[derive(Debug, Clone, Copy)]
@@ -44,8 +44,8 @@ impl Grid {
         Self { on_side, picture, tile: picture.map(|side| side.div_ceil(on_side)) }
     }
 
-    /// The tiles that have pixels: the place of each among indirect draws in bytes; then its first
-    /// column, first row, columns and rows.
+    /// The tiles that have pixels: the offset of each among indirect draws, in bytes; then its first
+    /// column, first row, columns and rows, in pixels.
     pub(crate) fn scissors(&self) -> impl Iterator<Item = (u64, [u32; 4])> {
         let Self { on_side, picture, tile } = *self;
         let columns = picture[0].div_ceil(tile[0]);
@@ -61,134 +61,52 @@ impl Grid {
     }
 
     /// Columns and rows of tiles that a rectangle in clip space meets.
-    fn tiles_in(&self, [low, high]: [DVec2; 2]) -> [std::ops::Range<u32>; 2] {
-        let place = |clip: f64, axis: usize| {
+    pub(crate) fn tiles_in(&self, [low, high]: [DVec2; 2]) -> [Range<u32>; 2] {
+        let tile_at = |clip: f64, axis: usize| {
             // The picture's edge belongs to the last tile, though its pixel would be the next one.
             let pixel = (0.5 * (1.0 + clip) * f64::from(self.picture[axis])) as u32;
             pixel.min(self.picture[axis] - 1) / self.tile[axis]
         };
         // Rows count from the top.
-        [place(low.x, 0)..place(high.x, 0) + 1, place(-high.y, 1)..place(-low.y, 1) + 1]
+        [tile_at(low.x, 0)..tile_at(high.x, 0) + 1, tile_at(-high.y, 1)..tile_at(-low.y, 1) + 1]
     }
-}
 
-/// Sorts the balls that are in the picture into tiles, by rising index in each.
-pub(crate) fn register(
-    supports: &[(Vec3, f32)],
-    view: &View,
-    grid: &Grid,
-) -> (Vec<Tile>, Vec<u32>) {
-    let mut tiles = vec![Tile::default(); ALL_TILES as usize];
-    let placed: Vec<_> = (0u32..)
-        .zip(supports)
-        .filter_map(|(ball, &(center, radius))| {
-            Some((ball, grid.tiles_in(cover(view, center, radius)?)))
-        })
-        .collect();
-    let on_side = grid.on_side;
-    let tiles_of = |[columns, rows]: &[std::ops::Range<u32>; 2]| {
+    /// Indices of the tiles of such columns and rows.
+    pub(crate) fn indices(&self, [columns, rows]: &[Range<u32>; 2]) -> impl Iterator<Item = usize> {
+        let on_side = self.on_side;
         let columns = columns.clone();
         rows.clone().flat_map(move |row| {
             columns.clone().map(move |column| (row * on_side + column) as usize)
         })
-    };
-    for (_, range) in &placed {
-        tiles_of(range).for_each(|tile| tiles[tile].balls += 1);
     }
-    let mut total = 0;
-    for tile in &mut tiles {
-        tile.first = total;
-        total += tile.balls;
-        tile.balls = 0;
-    }
-    let mut registered = vec![0; total as usize];
-    for (ball, range) in &placed {
-        for tile in tiles_of(range) {
-            let tile = &mut tiles[tile];
-            registered[(tile.first + tile.balls) as usize] = *ball;
-            tile.balls += 1;
-        }
-    }
-    (tiles, registered)
 }
 
-/// Corners in clip space of a rectangle that covers a sphere; `None` where no primary ray can meet
-/// it. Twin of `cover_sphere` in `core/cover.wgsl`, with its margin of a twentieth of a pixel for the
-/// rounding of the passes that draw.
-fn cover(view: &View, center: Vec3, radius: f32) -> Option<[DVec2; 2]> {
-    let camera = view.camera();
-    let to_center = center.as_dvec3() - camera.eye().as_dvec3();
-    let ahead = to_center.dot(camera.forward().as_dvec3());
-    let half_height = f64::from(camera.half_height());
-    let pixel = 2.0 * half_height / f64::from(view.height());
-    let half_width = 0.5 * pixel * f64::from(view.width());
-    let widened = 1.00001 * f64::from(radius) + 4e-6 * to_center.length();
-    let range = |aside: Vec3, half: f64| {
-        let [low, high] =
-            tangents(DVec2::new(to_center.dot(aside.as_dvec3()), ahead), widened, half)?;
-        let inside = |slope: f64| slope.clamp(-half, half) / half;
-        let ends = [inside(low - 0.05 * pixel), inside(high + 0.05 * pixel)];
-        (ends[0] < ends[1]).then_some(ends)
-    };
-    let across = range(camera.right(), half_width)?;
-    let upwards = range(camera.up(), half_height)?;
-    Some([DVec2::new(across[0], upwards[0]), DVec2::new(across[1], upwards[1])])
-}
-
-/// The slopes between which a circle can be seen from the origin along the second axis; `None`
-/// where it is behind. Those beyond `half` may be anything beyond.
-fn tangents(center: DVec2, radius: f64, half: f64) -> Option<[f64; 2]> {
-    let outside = 2.0 * half;
-    let distance = center.length();
-    if distance <= radius {
-        return Some([-outside, outside]);
-    }
-    if center.y <= -radius {
-        return None;
-    }
-    let along = ((distance - radius) * (distance + radius)).sqrt();
-    let slope = |turn: f64| {
-        let aside = center.x * along + center.y * turn;
-        let ahead = center.y * along - center.x * turn;
-        if aside.abs() >= outside * ahead { outside.copysign(aside) } else { aside / ahead }
-    };
-    // A circle beside the origin has one tangent that points backwards and bounds nothing ahead.
-    let is_ahead = center.y > radius;
-    let low = if is_ahead || center.x > 0.0 { slope(-radius) } else { -outside };
-    let high = if is_ahead || center.x < 0.0 { slope(radius) } else { outside };
-    Some([low, high])
-}
-
-/// Centres and radii of the supports, for the host's registration.
-pub(crate) fn supports(scene: &Scene) -> Vec<(Vec3, f32)> {
-    scene.balls().map(|ball| (ball.center, ball.radius)).collect()
-}
-
-/// The tiles on the device, with room for so many registrations; and the groups 2 that bind them.
-pub(crate) struct TileRoom {
+/// The tiles on the device, with a capacity of registrations; and the groups 2 that bind them.
+pub(crate) struct TileBuffers {
     pub(crate) registering: wgpu::BindGroup,
     pub(crate) turning: wgpu::BindGroup,
     pub(crate) drawing: wgpu::BindGroup,
     /// What indirect draws read.
     pub(crate) draws: wgpu::Buffer,
-    pub(crate) room: u32,
+    /// Registrations that the buffers hold.
+    pub(crate) capacity: u32,
     tiles: wgpu::Buffer,
     registered: wgpu::Buffer,
     rays_left: wgpu::Buffer,
     bytes: u64,
 }
 
-impl TileRoom {
+impl TileBuffers {
     pub(crate) fn new(
         gpu: &Gpu,
         balls: &Balls,
         layouts: &Layouts,
         registration: Registration,
-        room: u32,
+        capacity: u32,
     ) -> Result<Self, RenderError> {
         let none = wgpu::BufferUsages::empty();
         let tiles = gpu.storage("tiles", ALL_TILES * size_of::<Tile>() as u64, none)?;
-        let registered = gpu.storage("balls of tiles", 4 * u64::from(room), none)?;
+        let registered = gpu.storage("balls of tiles", 4 * u64::from(capacity), none)?;
         let rows = match registration {
             Registration::Host => 1,
             Registration::Device => balls.workgroups().max(1),
@@ -228,7 +146,7 @@ impl TileRoom {
                 ],
             ),
             draws,
-            room,
+            capacity,
             tiles,
             registered,
             rays_left,
@@ -240,7 +158,7 @@ impl TileRoom {
         self.bytes
     }
 
-    /// Sends what the host registered, which there must be room for.
+    /// Sends what the host registered, no more than the capacity.
     pub(crate) fn fill(
         &self,
         gpu: &Gpu,
@@ -253,7 +171,7 @@ impl TileRoom {
         })
     }
 
-    /// Forgets which rays the last frame left.
+    /// Clears which rays the last frame left.
     pub(crate) fn begin(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(&self.rays_left, 0, None);
     }

@@ -5,7 +5,7 @@
 
 use metaball_core::Kernel;
 
-use super::intervals::Chord;
+use super::chord::Chord;
 
 /// The highest degree: the kernel v⁸.
 pub(super) const MOST_DEGREE: usize = 16;

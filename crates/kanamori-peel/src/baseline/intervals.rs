@@ -3,41 +3,8 @@
 use metaball_core::Scene;
 
 use super::bernstein::Sum;
+use super::chord::Chord;
 use super::clipping::Search;
-
-/// A ball along a ray.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Chord {
-    /// t of the centre's projection.
-    pub(super) middle: f64,
-    /// Half the chord, squared; not negative.
-    pub(super) half_squared: f64,
-    /// 1/R².
-    pub(super) inverse_square: f64,
-    /// q.
-    pub(super) strength: f64,
-    /// The same as `half_squared` for the ball's kernel sphere; negative where the ray misses it.
-    pub(super) kernel_half_squared: f64,
-}
-
-impl Chord {
-    pub(super) fn enter(&self) -> f64 {
-        self.middle - self.half_squared.sqrt()
-    }
-
-    pub(super) fn leave(&self) -> f64 {
-        self.middle + self.half_squared.sqrt()
-    }
-
-    /// Where the ray enters the kernel sphere, 0 with its start inside; infinite where it does not.
-    pub(super) fn kernel_sphere(&self) -> f64 {
-        if self.kernel_half_squared < 0.0 {
-            return f64::INFINITY;
-        }
-        let half = self.kernel_half_squared.sqrt();
-        if self.middle + half < 0.0 { f64::INFINITY } else { (self.middle - half).max(0.0) }
-    }
-}
 
 /// The points of a ray in order, up to its nearest kernel sphere.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use glam::Vec3;
 use metaball_core::{Aabb, Ray, Scene, Support};
 use wide::f32x4;
 
-use super::intervals::Chord;
+use super::chord::Chord;
 
 /// Spheres of a leaf, and lanes of its test.
 const LANES: usize = 4;

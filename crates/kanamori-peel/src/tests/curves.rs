@@ -6,7 +6,7 @@ use metaball_shaders::Module;
 
 use super::random::Random;
 use crate::Clipping;
-use crate::pipelines::searching;
+use crate::pipelines::search_modules;
 
 /// A curve's coefficients, or what belongs to one: room for degree 16 and three numbers more.
 pub(super) type Record = [f32; 20];
@@ -22,7 +22,8 @@ pub(super) fn evaluate(
     inputs: &[Record],
 ) -> Vec<Record> {
     let spec = Specialization { kernel, ..Specialization::without_balls() };
-    let spec = spec.choosing(searching(kernel, spec.kernel_form, clipping).expect("has a form"));
+    let spec =
+        spec.choosing(search_modules(kernel, spec.kernel_form, clipping).expect("has a form"));
     let module = Module { name: "test", source, is_entry: true };
     let shader = Shader::of_module(gpu, &module, &spec).expect("composes");
     let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {

@@ -122,9 +122,9 @@ fn registrations_beyond_the_room_are_drawn_with_more() {
     let unculled = Options { culling: false, ..Options::default() };
     let attempt = |options| {
         let mut renderer = built(&gpu, options);
-        let before = renderer.registration_room();
+        let before = renderer.registration_capacity();
         let picture = draw_from(&gpu, &mut renderer, 9.0, (64, 48));
-        (picture, [before, renderer.registration_room()].map(|room| room.expect("is built")))
+        (picture, [before, renderer.registration_capacity()].map(|room| room.expect("is built")))
     };
     let (one_tile, [before, after]) = attempt(Options { tiles: 1, ..unculled });
     assert_eq!(before, after);
