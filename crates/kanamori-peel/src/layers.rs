@@ -1,10 +1,10 @@
-//! What peeling keeps for each pixel: two sets of lists that change places after every layer.
+//! What peeling keeps for each pixel: two sets of lists, read and written in turn.
 
 use metaball_core::gpu::{Gpu, RenderError, bind_group};
 
 use crate::layouts::{DEPTH_FORMAT, LIST_FORMAT, Layouts, POINT_FORMAT};
 
-/// Textures of one picture size.
+/// Textures of one picture size, and the groups 3 that bind them.
 pub(crate) struct Layers {
     pub(crate) size: (u32, u32),
     bytes: u64,
@@ -23,6 +23,39 @@ struct ListSet {
     testing: wgpu::BindGroup,
 }
 
+impl ListSet {
+    fn new(
+        gpu: &Gpu,
+        label: &str,
+        lists: &wgpu::Texture,
+        (points, kernel_depth): (&wgpu::TextureView, &wgpu::TextureView),
+        layouts: &Layouts,
+    ) -> Self {
+        let all = lists.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let target = |layer| {
+            lists.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
+        Self {
+            targets: (0..lists.depth_or_array_layers()).map(target).collect(),
+            peeling: bind_group(gpu, label, &layouts.peeling, &[(0, &all)]),
+            testing: bind_group(
+                gpu,
+                label,
+                &layouts.testing,
+                &[(0, &all), (1, points), (2, kernel_depth)],
+            ),
+        }
+    }
+}
+
 impl Layers {
     pub(crate) fn new(
         gpu: &Gpu,
@@ -30,66 +63,40 @@ impl Layers {
         targets: u32,
         layouts: &Layouts,
     ) -> Result<Self, RenderError> {
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        if width > limit || height > limit {
-            return Err(RenderError::PictureSize { width, height, limit });
-        }
         let texture = |label, format, layers| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: layers },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
+            gpu.render_target(
+                label,
                 format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
-            })
+                (width, height),
+                layers,
+                wgpu::TextureUsages::TEXTURE_BINDING,
+            )
         };
-        let plain = |label, format| texture(label, format, 1).create_view(&Default::default());
+        let view = |label, format| {
+            Ok::<_, RenderError>(texture(label, format, 1)?.create_view(&Default::default()))
+        };
+        let points = view("peeled points", POINT_FORMAT)?;
+        let point_depth = view("peeled depth", DEPTH_FORMAT)?;
+        let kernel_depth = view("kernel spheres", DEPTH_FORMAT)?;
+        let list_set = |label| {
+            let lists = texture(label, LIST_FORMAT, targets)?;
+            gpu.checked(|| ListSet::new(gpu, label, &lists, (&points, &kernel_depth), layouts))
+        };
+        let lists = [list_set("lists A")?, list_set("lists B")?];
+        let seeing = gpu
+            .checked(|| bind_group(gpu, "kernel depth", &layouts.seeing, &[(0, &kernel_depth)]))?;
         // Each of the two sets has as many textures as a list has targets.
         let texels = [(LIST_FORMAT, 2 * targets), (POINT_FORMAT, 1), (DEPTH_FORMAT, 2)];
         let pixel: u64 =
             texels.iter().map(|&(format, textures)| texel(format) * u64::from(textures)).sum();
-        let bytes = pixel * u64::from(width) * u64::from(height);
-        gpu.checked(|| {
-            let points = plain("peeled points", POINT_FORMAT);
-            let kernel_depth = plain("kernel spheres", DEPTH_FORMAT);
-            let list_set = |label| {
-                let lists = texture(label, LIST_FORMAT, targets);
-                let all = lists.create_view(&wgpu::TextureViewDescriptor {
-                    dimension: Some(wgpu::TextureViewDimension::D2Array),
-                    ..Default::default()
-                });
-                let layer = |layer| {
-                    lists.create_view(&wgpu::TextureViewDescriptor {
-                        dimension: Some(wgpu::TextureViewDimension::D2),
-                        base_array_layer: layer,
-                        array_layer_count: Some(1),
-                        ..Default::default()
-                    })
-                };
-                ListSet {
-                    targets: (0..targets).map(layer).collect(),
-                    peeling: bind_group(gpu, label, &layouts.peeling, &[(0, &all)]),
-                    testing: bind_group(
-                        gpu,
-                        label,
-                        &layouts.testing,
-                        &[(0, &all), (1, &points), (2, &kernel_depth)],
-                    ),
-                }
-            };
-            Self {
-                size: (width, height),
-                bytes,
-                lists: [list_set("lists A"), list_set("lists B")],
-                point_depth: plain("peeled depth", DEPTH_FORMAT),
-                seeing: bind_group(gpu, "kernel depth", &layouts.seeing, &[(0, &kernel_depth)]),
-                points,
-                kernel_depth,
-            }
+        Ok(Self {
+            size: (width, height),
+            bytes: pixel * u64::from(width) * u64::from(height),
+            lists,
+            points,
+            point_depth,
+            kernel_depth,
+            seeing,
         })
     }
 
@@ -118,8 +125,8 @@ impl Layers {
         depth(&self.point_depth, Some(1.0))
     }
 
-    /// The lists before a layer, to be written where a tile has a ray without an answer. Nobody
-    /// reads the others.
+    /// The lists before a layer, to be written where a tile has a ray without an answer; the others
+    /// are never read.
     pub(crate) fn written_before(
         &self,
         layer: u32,
