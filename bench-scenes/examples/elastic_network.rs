@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Places of the α carbons of a gzipped PDB file.
+/// Positions of the α carbons of a gzipped PDB file.
 fn alpha_carbons(path: &str) -> Result<Vec<DVec3>, Box<dyn Error>> {
     let mut text = String::new();
     MultiGzDecoder::new(std::fs::File::open(path)?).read_to_string(&mut text)?;

@@ -161,7 +161,7 @@ impl Fluid {
     }
 }
 
-/// The nearest place in the tank, half a spacing from its walls.
+/// The nearest position in the tank, half a spacing from its walls.
 fn in_tank(position: DVec3) -> DVec3 {
     let margin = DVec3::splat(0.5 * SPACING);
     position.clamp(margin, SPACING * TANK - margin)

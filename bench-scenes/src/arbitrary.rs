@@ -26,8 +26,8 @@ pub fn arbitrary(seed: u64) -> Result<Scene, SceneError> {
     let kernels: Vec<_> = Kernel::all().collect();
     let kernel = random.one_of(&kernels);
     let count = 1 + (random.unit().powi(3) * MOST_BALLS) as usize;
-    // Radii of free space around a ball, on average.
-    let room = random.one_of(&[0.35, 0.5, 0.8, 1.2]) * (count as f64).cbrt();
+    // Radius of the ball in which centres lie, for so many radii of free space around each on average.
+    let extent = random.one_of(&[0.35, 0.5, 0.8, 1.2]) * (count as f64).cbrt();
     let sizes = random.one_of(&[Sizes::Equal, Sizes::Equal, Sizes::Mixed, Sizes::Ratio]);
     let ratio = random.one_of(&[10.0, 100.0, 1e3, 1e4, 1e5]);
     let strengths =
@@ -37,7 +37,7 @@ pub fn arbitrary(seed: u64) -> Result<Scene, SceneError> {
 
     let mut balls: Vec<(DVec3, f64, f64)> = Vec::with_capacity(count);
     for index in 0..count {
-        let mut center = room * random.in_ball();
+        let mut center = extent * random.in_ball();
         if is_grid {
             center = (2.0 * center).round() / 2.0;
         }
@@ -46,13 +46,13 @@ pub fn arbitrary(seed: u64) -> Result<Scene, SceneError> {
             Sizes::Mixed => random.between(0.4, 1.6),
         };
         if index > 0 && random.unit() < twins {
-            let place = (random.unit() * index as f64) as usize;
-            center = balls[place].0;
+            let other = (random.unit() * index as f64) as usize;
+            center = balls[other].0;
         } else if index > 0 && sizes == Sizes::Ratio && random.unit() < 0.7 {
             // Where the surface of a large ball is likely to be.
-            let place = (random.unit() * index as f64) as usize;
+            let other = (random.unit() * index as f64) as usize;
             center =
-                balls[place].0 + random.direction() * balls[place].1 * random.between(0.2, 1.0);
+                balls[other].0 + random.direction() * balls[other].1 * random.between(0.2, 1.0);
             radius = random.between(1.0, 3.0) / ratio;
         }
         let strength = match strengths {

@@ -1,4 +1,4 @@
-//! Cameras that go around a scene, or up to it.
+//! Paths of cameras: around a scene, or up to it.
 
 use glam::Vec3;
 use metaball_core::{Aabb, Camera};
@@ -6,11 +6,11 @@ use particle_files::framing;
 
 use crate::exact::turn;
 
-/// The number of cameras on a walk around a scene.
+/// The number of cameras around a scene.
 const STEPS: u32 = 8;
 
 /// Cameras like [`framing`]'s at equal steps around the vertical axis, that of `direction` first.
-pub(crate) fn walk_around(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
+pub(crate) fn orbit(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
     (0..STEPS)
         .map(|step| {
             let turned = turn(f64::from(step) / f64::from(STEPS)).as_vec2();
@@ -23,7 +23,7 @@ pub(crate) fn walk_around(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
 }
 
 /// Three cameras along one direction: [`framing`]'s, and from a half and a quarter of its distance.
-pub(crate) fn come_near(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
+pub(crate) fn approach(bounds: &Aabb, direction: Vec3) -> Vec<Camera> {
     let center = bounds.center();
     let near = |share: f32| {
         let half = 0.5 * share * bounds.extent();

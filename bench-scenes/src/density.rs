@@ -3,31 +3,31 @@
 use glam::DVec3;
 use metaball_core::{Scene, Support};
 
-/// A ball that has a place and a size among its fellows but no scale yet.
+/// A ball whose position and relative size are known, but not its scale.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Placed {
+pub(crate) struct UnscaledBall {
     /// Centre, scene units.
     pub(crate) center: DVec3,
     /// Support radius over the scene's common scale.
     pub(crate) size: f64,
 }
 
-/// Distances looked at: enough to know the density of dense scenes to about 1 %, few enough to take
+/// Distances measured: enough to know the density of dense scenes to about 1 %, few enough to take
 /// a fraction of a second.
 const DISTANCES: usize = 8_000_000;
 
-/// Balls whose surroundings are looked at even where that takes more distances.
+/// Balls whose neighbourhood is measured even where that takes more distances.
 const LEAST_SAMPLE: usize = 16;
 
 /// The scale at which the supports of `density` other balls hold a ball's centre, on average over
 /// balls picked at equal steps through the list. Scattered without order, the balls then also cover
 /// any point `density` times on average. `density` must be below the number of other balls.
-pub(crate) fn scale_for(placed: &[Placed], density: f64) -> f64 {
+pub(crate) fn scale_for(balls: &[UnscaledBall], density: f64) -> f64 {
     let mut squared_scales = Vec::new();
     let mut sampled = 0;
-    for (index, ball) in sample(placed) {
+    for (index, ball) in sample(balls) {
         sampled += 1;
-        squared_scales.extend(placed.iter().enumerate().filter(|(other, _)| *other != index).map(
+        squared_scales.extend(balls.iter().enumerate().filter(|(other, _)| *other != index).map(
             |(_, other)| {
                 (other.center.distance_squared(ball.center) / (other.size * other.size)) as f32
             },

@@ -3,15 +3,14 @@
 
 use glam::Vec3;
 use metaball_core::{Aabb, Camera, Kernel, Metaball, Scene};
-use particle_files::framing;
 
-use crate::cameras::walk_around;
+use crate::cameras::orbit;
 use crate::error::LoadError;
 use crate::generate;
 use crate::small::{Shot, looking};
 
-/// A scene, the camera that shows it, and those of a walk around it.
-pub(crate) type Walk = (Scene, Camera, Vec<Camera>);
+/// A scene and a path of cameras that show it, at least one.
+pub(crate) type ScenePath = (Scene, Vec<Camera>);
 
 /// T of these scenes; the paper prints none.
 const THRESHOLD: f32 = 0.5;
@@ -20,15 +19,16 @@ const THRESHOLD: f32 = 0.5;
 const SEEN_FROM: Vec3 = Vec3::new(0.4, 0.45, 1.0);
 
 /// The fluid of figure 10, left: 120,000 balls, as dense as a simulation's.
-pub(crate) fn fluid() -> Result<Walk, LoadError> {
+pub(crate) fn fluid() -> Result<ScenePath, LoadError> {
     let scene = fluid_scene()?;
-    Ok(seen_around(scene.bounds(), scene))
+    let path = orbit(&scene.bounds(), SEEN_FROM);
+    Ok((scene, path))
 }
 
 /// The same close up, right: the crown of the splash.
-pub(crate) fn fluid_close_up() -> Result<Walk, LoadError> {
+pub(crate) fn fluid_close_up() -> Result<ScenePath, LoadError> {
     let crown = Aabb::around_sphere(Vec3::new(0.25, 0.45, 0.1), 0.25);
-    Ok(seen_around(crown, fluid_scene()?))
+    Ok((fluid_scene()?, orbit(&crown, SEEN_FROM)))
 }
 
 fn fluid_scene() -> Result<Scene, LoadError> {
@@ -36,10 +36,6 @@ fn fluid_scene() -> Result<Scene, LoadError> {
         unreachable!("pool is a generator");
     };
     Ok(recipe.scene()?.scene.with_kernel(Kernel::Wyvill).with_threshold(THRESHOLD)?)
-}
-
-fn seen_around(shown: Aabb, scene: Scene) -> Walk {
-    (scene, framing(&shown, SEEN_FROM), walk_around(&shown, SEEN_FROM))
 }
 
 /// Section 6's comparison with Knoll et al. 2007: five balls so near that they fill about 80 % of
@@ -76,11 +72,11 @@ mod tests {
 
     #[test]
     fn the_close_up_is_the_same_fluid_from_nearer() {
-        let ((wide, far, _), (close, near, _)) =
+        let ((wide, far), (close, near)) =
             (fluid().expect("legal"), fluid_close_up().expect("legal"));
         assert_eq!((wide.len(), wide.kernel()), (120_000, Kernel::Wyvill));
         assert_eq!(wide, close);
         let middle = wide.bounds().center();
-        assert!(near.eye().distance(middle) < 0.5 * far.eye().distance(middle));
+        assert!(near[0].eye().distance(middle) < 0.5 * far[0].eye().distance(middle));
     }
 }

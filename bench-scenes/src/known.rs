@@ -3,11 +3,12 @@
 use metaball_core::Kernel;
 use particle_files::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, framing, parse};
 
-use crate::cameras::walk_around;
+use crate::bench_scene::{BenchScene, Kind};
+use crate::cameras::orbit;
 use crate::error::LoadError;
-use crate::figures::{self, Walk};
+use crate::figures::{self, ScenePath};
+use crate::generate;
 use crate::small::{self, Shot};
-use crate::{BenchScene, Kind, generate};
 
 /// A scene that [`load`](crate::load()) knows by name.
 #[derive(Debug)]
@@ -20,38 +21,38 @@ pub struct KnownScene {
     pub small: bool,
     /// How strictly verdicts on its rays may be compared.
     pub kind: Kind,
-    recipe: Recipe,
+    source: Source,
 }
 
 #[derive(Debug)]
-enum Recipe {
+enum Source {
     /// A generator's spec.
     Generated(&'static str),
     /// A file of this package, and where it is seen from (from the middle to the eye).
     Data(&'static str, &'static [u8], [f32; 3]),
-    /// A figure of a paper.
-    Figure(fn() -> Result<Walk, LoadError>),
+    /// A figure of a paper, seen along a path.
+    Figure(fn() -> Result<ScenePath, LoadError>),
     /// Made by hand.
     Small(fn() -> Result<Shot, LoadError>),
 }
 
-use Recipe::{Data, Figure, Generated, Small};
+use Source::{Data, Figure, Generated, Small};
 
 /// All known scenes, the large ones first.
 pub fn known() -> &'static [KnownScene] {
     KNOWN
 }
 
-const fn large(name: &'static str, about: &'static str, recipe: Recipe) -> KnownScene {
-    KnownScene { name, about, small: false, kind: Kind::General, recipe }
+const fn large(name: &'static str, about: &'static str, source: Source) -> KnownScene {
+    KnownScene { name, about, small: false, kind: Kind::General, source }
 }
 
-const fn small(name: &'static str, about: &'static str, recipe: Recipe) -> KnownScene {
-    KnownScene { name, about, small: true, kind: Kind::General, recipe }
+const fn small(name: &'static str, about: &'static str, source: Source) -> KnownScene {
+    KnownScene { name, about, small: true, kind: Kind::General, source }
 }
 
-const fn clear(name: &'static str, about: &'static str, recipe: Recipe) -> KnownScene {
-    KnownScene { name, about, small: true, kind: Kind::Clear, recipe }
+const fn clear(name: &'static str, about: &'static str, source: Source) -> KnownScene {
+    KnownScene { name, about, small: true, kind: Kind::Clear, source }
 }
 
 const KNOWN: &[KnownScene] = &[
@@ -114,7 +115,7 @@ const KNOWN: &[KnownScene] = &[
     ),
     small(
         "fifteen-coincident",
-        "Fifteen balls at one place, one more than Kanamori's lists hold.",
+        "Fifteen balls with one centre, one more than Kanamori's lists hold.",
         Small(small::fifteen_coincident),
     ),
     small(
@@ -152,7 +153,7 @@ const KNOWN: &[KnownScene] = &[
 impl KnownScene {
     /// The generator's spec that it is a name for, if it is one.
     pub(crate) fn spec(&self) -> Option<&'static str> {
-        match self.recipe {
+        match self.source {
             Generated(spec) => Some(spec),
             Data(..) | Figure(_) | Small(_) => None,
         }
@@ -163,7 +164,7 @@ impl KnownScene {
     /// # Errors
     /// None that a test would not have found: the data are part of this package.
     pub fn scene(&self) -> Result<BenchScene, LoadError> {
-        let (scene, camera, path) = match self.recipe {
+        let (scene, camera, path) = match self.source {
             Generated(spec) => {
                 let Some(recipe) = generate::parse(spec)? else {
                     unreachable!("{spec} names a generator");
@@ -174,9 +175,12 @@ impl KnownScene {
             Data(file, bytes, seen_from) => {
                 let scene = parse(file, bytes)?.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD)?;
                 let (bounds, seen_from) = (scene.bounds(), seen_from.into());
-                (scene, framing(&bounds, seen_from), walk_around(&bounds, seen_from))
+                (scene, framing(&bounds, seen_from), orbit(&bounds, seen_from))
             }
-            Figure(make) => make()?,
+            Figure(make) => {
+                let (scene, path) = make()?;
+                (scene, path[0], path)
+            }
             Small(make) => {
                 let (scene, camera) = make()?;
                 (scene, camera, Vec::new())

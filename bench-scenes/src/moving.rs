@@ -3,21 +3,18 @@
 use std::ops::Range;
 
 use glam::Vec3;
-use metaball_core::{Aabb, Camera, Metaball, Scene};
+use metaball_core::{Aabb, Camera, Scene};
 use particle_files::{Overrides, PackedFrames, Sequence, framing};
 
 use crate::error::LoadError;
-use crate::exact::turn;
 use crate::generate::{self, Recipe};
 use crate::known::KnownScene;
+use crate::vibration::Vibration;
 use crate::{generators, known};
 
 /// Frames to a second of generated motion and of the scene `splash`. The molecule's motion has no time of
 /// its own, and users' frames have the time that they say.
 pub const FRAME_RATE: u32 = 24;
-
-/// Frames of a period of the molecule's motion.
-const SWAY: u32 = 96;
 
 /// A scene that moves. Frames are independent of each other: any can be had, in any order and from
 /// any thread, and is the same each time.
@@ -40,8 +37,8 @@ pub struct Moving {
 enum Motion {
     /// Without end.
     Generated { recipe: Recipe, scale: f64 },
-    /// Without end, periodic: a still scene and how far its balls go.
-    Swaying { rest: Scene, modes: PackedFrames },
+    /// Without end, periodic.
+    Vibrating(Vibration),
     /// Files.
     Sequence(Sequence),
 }
@@ -91,7 +88,7 @@ impl Moving {
     pub fn present(&self, range: Range<u32>) -> Result<Vec<u32>, LoadError> {
         match &self.motion {
             Motion::Sequence(sequence) => Ok(sequence.present(range)?),
-            Motion::Generated { .. } | Motion::Swaying { .. } => Ok(range.collect()),
+            Motion::Generated { .. } | Motion::Vibrating(_) => Ok(range.collect()),
         }
     }
 
@@ -127,27 +124,9 @@ impl Motion {
             Self::Generated { recipe, scale } => {
                 recipe.at(f64::from(number) / f64::from(FRAME_RATE), *scale)
             }
-            Self::Swaying { rest, modes } => swayed(rest, modes, number),
+            Self::Vibrating(vibration) => vibration.frame(number),
             Self::Sequence(sequence) => Ok(sequence.frame(number)?),
         }
-    }
-}
-
-/// Every ball at its position of rest plus its share of each mode, the softest of which swings once
-/// in a period of the motion, the next twice, and so on: at frame 0 all are at rest.
-fn swayed(rest: &Scene, modes: &PackedFrames, number: u32) -> Result<Scene, LoadError> {
-    let mut balls: Vec<Metaball> = rest.balls().collect();
-    for mode in 0..modes.count() {
-        let phase = (mode + 1) * (number % SWAY);
-        let swing = turn(f64::from(phase) / f64::from(SWAY)).y as f32;
-        for (ball, displaced) in balls.iter_mut().zip(modes.frame(mode).balls) {
-            ball.center += swing * displaced.center;
-        }
-    }
-    let scene = Scene::new(balls, rest.kernel(), rest.threshold())?;
-    match rest.colors() {
-        Some(colors) => Ok(scene.with_colors(colors.to_vec())?),
-        None => Ok(scene),
     }
 }
 
@@ -168,8 +147,8 @@ fn of_name(name: &str) -> Result<Moving, LoadError> {
         "molecule" => {
             let modes = PackedFrames::parse(include_bytes!("../data/md_1u19-modes.frames"))?;
             let still = crate::load(name, &Overrides::default())?;
-            let motion = Motion::Swaying { rest: still.scene, modes };
-            Ok(Moving::new(name.to_owned(), motion, 0..SWAY, still.camera))
+            let motion = Motion::Vibrating(Vibration { rest: still.scene, modes });
+            Ok(Moving::new(name.to_owned(), motion, 0..Vibration::PERIOD, still.camera))
         }
         _ => match known().iter().find(|known| known.name == name).and_then(KnownScene::spec) {
             Some(spec) => generate::parse(spec)?.map_or(Err(still(name)), Moving::generated),

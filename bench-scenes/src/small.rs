@@ -51,7 +51,7 @@ pub(crate) fn far_from_origin() -> Result<Shot, LoadError> {
     Ok((scene, looking(middle + Vec3::new(1.0, 0.8, 5.0), middle)?))
 }
 
-/// A ball of radius 1 with forty of radius 0.001 strewn over the place that the camera sees from near.
+/// A ball of radius 1 with forty of radius 0.001 scattered over the part of its surface that the camera shows from near.
 pub(crate) fn radius_ratio_1000() -> Result<Shot, LoadError> {
     // The quartic takes the value ¼ at R/√2.
     let surface = std::f32::consts::FRAC_1_SQRT_2;

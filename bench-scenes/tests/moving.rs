@@ -52,7 +52,7 @@ fn frame_0_is_the_still_scene() {
 /// Coordinates are below 128 Å, so each of the additions of three modes in two frames rounds by at most
 /// half of 2⁻¹⁷ Å.
 #[test]
-fn the_molecule_sways_and_comes_round() {
+fn the_molecules_motion_is_periodic() {
     const ROUNDING: f32 = 6.0 * 0.5 / 131_072.0;
     let molecule = get("molecule").expect("known");
     let frame = |number| molecule.frame(number).expect("drawn");

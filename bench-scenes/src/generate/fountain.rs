@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::density::Placed;
+use crate::density::UnscaledBall;
 use crate::exact::turn;
 use crate::random::Random;
 
@@ -14,7 +14,7 @@ const JETS: f64 = 8.0;
 const GRAVITY: f64 = 2.0;
 
 /// The balls after so many units of time: a drop that falls into the basin leaves its nozzle again.
-pub(super) fn fountain(count: usize, random: &mut Random, time: f64) -> Vec<Placed> {
+pub(super) fn fountain(count: usize, random: &mut Random, time: f64) -> Vec<UnscaledBall> {
     (0..count)
         .map(|_| {
             let center = match random.unit() {
@@ -25,7 +25,7 @@ pub(super) fn fountain(count: usize, random: &mut Random, time: f64) -> Vec<Plac
                 }
                 _ => basin(random, time),
             };
-            Placed { center, size: random.between(0.6, 1.4) }
+            UnscaledBall { center, size: random.between(0.6, 1.4) }
         })
         .collect()
 }

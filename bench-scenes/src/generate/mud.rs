@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::lattice::Under;
-use crate::density::Placed;
+use crate::density::UnscaledBall;
 use crate::exact::turn;
 use crate::random::Random;
 
@@ -14,12 +14,12 @@ const HALF: (f64, f64) = (1.0, 0.7);
 /// Depth of the mud where it lies deepest, but for the folds.
 const DEPTH: f64 = 0.22;
 
-pub(super) fn mud(count: usize, random: &mut Random) -> Vec<Placed> {
+pub(super) fn mud(count: usize, random: &mut Random) -> Vec<UnscaledBall> {
     let clods = count / 50;
     let flow = Under { half: HALF, depth: DEPTH, surface: depth }.fill(count - clods, random);
     let clods = (0..clods).map(|_| thrown(random)).collect::<Vec<_>>();
     let lain = flow.into_iter().chain(clods);
-    lain.map(|site| Placed { center: site + DVec3::Y * ground(site.x), size: 1.0 }).collect()
+    lain.map(|site| UnscaledBall { center: site + DVec3::Y * ground(site.x), size: 1.0 }).collect()
 }
 
 /// Height of the ground: a slope that ends in a plain.

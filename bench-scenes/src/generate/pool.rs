@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::lattice::Under;
-use crate::density::Placed;
+use crate::density::UnscaledBall;
 use crate::exact::turn;
 use crate::random::Random;
 
@@ -15,11 +15,11 @@ const DEPTH: f64 = 0.35;
 /// Where the drop fell, x and z.
 const FALL: (f64, f64) = (0.25, 0.1);
 
-pub(super) fn pool(count: usize, random: &mut Random) -> Vec<Placed> {
+pub(super) fn pool(count: usize, random: &mut Random) -> Vec<UnscaledBall> {
     let splash = count / 25;
     let mut centers = Under { half: HALF, depth: DEPTH, surface }.fill(count - splash, random);
     centers.extend((0..splash).map(|_| thrown(random)));
-    centers.into_iter().map(|center| Placed { center, size: 1.0 }).collect()
+    centers.into_iter().map(|center| UnscaledBall { center, size: 1.0 }).collect()
 }
 
 /// Height of the surface.

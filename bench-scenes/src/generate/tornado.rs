@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::density::Placed;
+use crate::density::UnscaledBall;
 use crate::exact::turn;
 use crate::random::Random;
 
@@ -18,7 +18,7 @@ const RISE: f64 = 0.06;
 
 /// The balls after so many seconds. What leaves the funnel at the top is as much as enters it at the
 /// ground, and the bands keep their shape.
-pub(super) fn tornado(count: usize, random: &mut Random, time: f64) -> Vec<Placed> {
+pub(super) fn tornado(count: usize, random: &mut Random, time: f64) -> Vec<UnscaledBall> {
     (0..count)
         .map(|_| {
             let center = match random.unit() {
@@ -26,7 +26,7 @@ pub(super) fn tornado(count: usize, random: &mut Random, time: f64) -> Vec<Place
                 part if part < 0.97 => dust(random, time),
                 _ => debris(random, time),
             };
-            Placed { center, size: 1.0 }
+            UnscaledBall { center, size: 1.0 }
         })
         .collect()
 }
@@ -56,7 +56,7 @@ fn height_above(share: f64) -> f64 {
     low
 }
 
-/// Where what was at a height is so many seconds later; it comes in again at the ground.
+/// Where what was at a height is so many seconds later; it enters again at the ground.
 fn risen(height: f64, time: f64) -> f64 {
     let share = below(height) + RISE * time;
     // At the start this is the height itself, to the bit.

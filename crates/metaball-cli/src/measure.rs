@@ -197,7 +197,7 @@ mod tests {
         };
         assert!(!all.quick && all.cases.is_empty() && all.methods.is_empty());
         assert_eq!(all.out, PathBuf::from("out/stability"));
-        let line = "metaball stability --quick --cases crowd,neck --methods kanamori+fine";
+        let line = "metaball stability --quick --cases overlapping,neck --methods kanamori+fine";
         let Ok(Command::Stability(few)) = parse(line) else { panic!("a legal command line") };
         assert!(few.quick && few.cases.len() == 2 && few.methods[0].name == "kanamori+fine");
     }

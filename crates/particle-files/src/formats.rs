@@ -80,6 +80,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn every_ending_is_documented() {
+        let text = include_str!("../FORMATS.md");
+        for ending in Format::endings() {
+            assert!(text.contains(&format!("`{ending}`")), "{ending} is not in FORMATS.md");
+        }
+    }
+
+    #[test]
     fn formats_are_known_by_their_ending() {
         assert_eq!(Format::of("b.CIF.gz"), Some(Format::Mmcif));
         assert_eq!(Format::of("a/pdb1u19.ent.gz"), Some(Format::Pdb));

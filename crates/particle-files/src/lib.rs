@@ -21,38 +21,6 @@
 //! # Ok::<(), particle_files::LoadError>(())
 //! ```
 //!
-//! # Formats
-//! The ending of a file's name says its format; each may be followed by `.gz`.
-//!
-//! | ending | what is read |
-//! | --- | --- |
-//! | `.csv` | A header line, then columns in any order: `x,y,z,radius`, optionally `strength`, optionally `red,green,blue` (all three, sRGB-encoded, from 0 to 1). `radius` is the support radius R. |
-//! | `.xyz` | XYZ and extended XYZ, first frame. A `radius` among the `Properties` is R. Without it, species that are elements make a molecule; other particles, and "elements" nearer together than atoms can be, get R = twice the median distance between nearest neighbours. |
-//! | `.pdb`, `.ent` | Protein Data Bank format up to 99,999 atoms: first model, first of alternative locations. Blank element columns are filled in from the atom's name. |
-//! | `.cif`, `.mmcif` | The same from mmCIF, of any size. |
-//! | `.balls` | Equal balls with positions of 16 bits ([`pack_balls`] writes them). |
-//! | `.frames` | A sequence of equal balls with positions of 16 bits ([`pack_frames`] writes it). |
-//! | `.toml` | A scene file, below. |
-//!
-//! In a molecule R is [√2 times](SUPPORT_OVER_VAN_DER_WAALS) the van der Waals radius (Alvarez 2013): with the
-//! default kernel and threshold an atom alone then shows at its van der Waals radius. Atoms have the
-//! colours of their elements.
-//!
-//! A scene file names a particle file and says how its balls make a surface. Only `particles` is
-//! required; unknown keys are errors.
-//!
-//! ```toml
-//! particles = "pool.csv"      # path relative to this file; "pool-%04d.csv" for a sequence
-//! kernel = "power"            # "power" (with exponent), "wyvill" or "perlin"; default "power"
-//! exponent = 2                # 1 to 8, for "power" only; default 2
-//! threshold = 0.25            # above 0; default 0.25
-//! [camera]                    # default: one that frames the particles
-//! eye = [2.2, 1.7, 3.4]
-//! look_at = [0.0, 0.0, 0.0]
-//! up = [0.0, 1.0, 0.0]        # default: this
-//! vertical_fov_degrees = 38.0 # default: this
-//! ```
-//!
 //! # Errors
 //! A [`LoadError`] names the file, with line and column or key, what was needed and what was found:
 //!
@@ -64,7 +32,8 @@
 //! );
 //! ```
 //!
-//! No bytes make it panic.
+//! No bytes make reading panic.
+#![doc = include_str!("../FORMATS.md")]
 
 mod elements;
 mod error;

@@ -1,4 +1,4 @@
-//! What a user asks for in place of what a scene says.
+//! What replaces a scene's own kernel, threshold and colours.
 
 use metaball_core::{Color, Kernel, Scene};
 

@@ -1,16 +1,5 @@
-//! Scene files: TOML that names a particle file and says how its balls make a surface.
-//!
-//! ```toml
-//! particles = "pool.csv"      # a particle file; path relative to the scene file
-//! kernel = "power"            # "power" (with exponent), "wyvill" or "perlin"; default "power"
-//! exponent = 2                # 1 to 8, for "power" only; default 2
-//! threshold = 0.25            # above 0; default 0.25
-//! [camera]                    # default: one that frames the particles
-//! eye = [2.2, 1.7, 3.4]
-//! look_at = [0.0, 0.0, 0.0]
-//! up = [0.0, 1.0, 0.0]        # default: this
-//! vertical_fov_degrees = 38.0 # default: this
-//! ```
+//! Scene files: TOML that names a particle file and says how its balls make a surface (`FORMATS.md` has the
+//! keys).
 
 use std::path::{Path, PathBuf};
 

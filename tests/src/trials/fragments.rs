@@ -52,7 +52,7 @@ fn most_rays_are_promised(gpu: &Gpu) -> Result<(), Failed> {
 /// 65 balls over one point: the published array of 96 separators holds 32.
 fn crowd(gpu: &Gpu, method: &str, is_marked: bool) -> Result<(), Failed> {
     let mut cases = bench_scenes::cases().iter();
-    let case = cases.find(|known| known.name == "crowd").ok_or("no such case")?;
+    let case = cases.find(|known| known.name == "overlapping").ok_or("no such case")?;
     let scene = case.scene(65.0)?;
     let mut renderer = renderer(method)?;
     let drawn = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;

@@ -31,9 +31,9 @@ pub(super) fn trials() -> Vec<Trial> {
         ("coincident", 2.0, Lost, Right),
         ("coincident", 14.0, Lost, Right),
         // Figure 9b: a list of 14, and none. The supports drawn are marked.
-        ("crowd", 14.0, Right, Right),
-        ("crowd", 15.0, Fallback, Right),
-        ("crowd", 65.0, Fallback, Right),
+        ("overlapping", 14.0, Right, Right),
+        ("overlapping", 15.0, Fallback, Right),
+        ("overlapping", 65.0, Fallback, Right),
         // Figure 9c: peeling goes on until it ends; searching passes them by.
         ("veiled", 65.0, Right, Right),
         ("veiled", 140.0, Right, Right),

@@ -22,7 +22,7 @@ type Limit = (&'static str, &'static [From]);
 /// lost depends on where it passes. Section 6: an array of 96 separators, three a ball.
 const CUBICS: &[Limit] = &[
     ("coincident", &[(33.0, Told)]),
-    ("crowd", &[(33.0, Told)]),
+    ("overlapping", &[(33.0, Told)]),
     ("concentric", &[(65.0, Told)]),
     ("common-entry", &[(2.0, Lost), (13.0, Right), (33.0, Told)]),
     ("distance", &[(10.0, Lost), (30.0, Right), (1e6, Lost)]),
@@ -50,7 +50,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
         "kanamori",
         &[
             ("coincident", &[(2.0, Lost)]),
-            ("crowd", &[(15.0, Told)]),
+            ("overlapping", &[(15.0, Told)]),
             ("concentric", &[(65.0, Told)]),
             ("common-entry", &[(2.0, Lost)]),
             ("distance", &[(1e4, Coarse), (1e6, Broken)]),
@@ -61,7 +61,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
         "kanamori+fine",
         &[
             ("coincident", &[(2.0, Lost)]),
-            ("crowd", &[(15.0, Told)]),
+            ("overlapping", &[(15.0, Told)]),
             ("concentric", &[(65.0, Told)]),
             ("common-entry", &[(2.0, Lost)]),
             ("distance", &[(1e4, Coarse), (1e6, Broken)]),
@@ -119,7 +119,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
         &[
             ("few", &[(1.0, Lost), (0.0, Right)]),
             ("coincident", &[(33.0, Told)]),
-            ("crowd", &[(33.0, Told)]),
+            ("overlapping", &[(33.0, Told)]),
             ("concentric", &[(65.0, Told)]),
             ("common-entry", &[(2.0, Lost), (13.0, Right), (33.0, Told)]),
             ("veiled", &[(13.0, Lost), (14.0, Right), (65.0, Lost)]),
@@ -146,7 +146,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
         "illes-exact",
         &[
             ("coincident", &[(33.0, Told)]),
-            ("crowd", &[(33.0, Told)]),
+            ("overlapping", &[(33.0, Told)]),
             ("concentric", &[(65.0, Told)]),
             ("common-entry", &[(33.0, Told)]),
             ("distance", &[(3e4, Coarse), (1e6, Broken)]),
@@ -158,7 +158,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
         "illes-exact+30",
         &[
             ("coincident", &[(13.0, Told)]),
-            ("crowd", &[(13.0, Told)]),
+            ("overlapping", &[(13.0, Told)]),
             ("concentric", &[(29.0, Told)]),
             ("common-entry", &[(13.0, Told)]),
             ("distance", &[(3e4, Coarse), (1e6, Broken)]),
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn an_outcome_lasts_until_the_next() {
-        let case = cases().iter().find(|case| case.name == "crowd").expect("known");
+        let case = cases().iter().find(|case| case.name == "overlapping").expect("known");
         let at = |value| expected("kanamori", case, value);
         assert_eq!([at(14.0), at(15.0), at(140.0)], [Right, Told, Told]);
         assert_eq!(expected("no such entrant", case, 4096.0), Right);

@@ -79,12 +79,12 @@ fn legend() -> String {
 
 fn matrix(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
     let mut rows = String::new();
-    let mut subject = None;
+    let mut category = None;
     for case in cases {
-        if subject != Some(case.subject) {
-            subject = Some(case.subject);
+        if category != Some(case.category) {
+            category = Some(case.category);
             let columns = entrants.len() + 1;
-            let title = case.subject.title();
+            let title = case.category.title();
             let _ =
                 writeln!(rows, "<tr><th class=\"subject\" colspan=\"{columns}\">{title}</th></tr>");
         }

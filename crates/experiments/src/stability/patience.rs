@@ -40,7 +40,7 @@ mod tests {
             ("kanamori", 0.5 * PATIENCE_S, false),
             ("kanamori-robust", 2.0 * PATIENCE_S, false),
         ] {
-            let refused = Cell::refused("crowd", 140.0, name, String::new());
+            let refused = Cell::refused("overlapping", 140.0, name, String::new());
             let cells = [Cell { seconds, ..refused }];
             let reason = rests(cells.iter(), find(name));
             assert_eq!(reason.is_some(), is_tired, "{name}: {reason:?}");

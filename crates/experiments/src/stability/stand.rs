@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use bench_scenes::{Case, Drawing};
+use bench_scenes::{Case, Redraw};
 use metaball_core::gpu::{Frame, Gpu, IsoRenderer, RenderError, Targets, render};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Scene, View};
@@ -65,9 +65,9 @@ impl<'a> Stand<'a> {
         rests: impl Fn(&Setting) -> Option<String>,
     ) -> anyhow::Result<Vec<Cell>> {
         let (bench, view) = case.view(value)?;
-        let other = match case.drawing {
-            Drawing::Shuffled => bench.shuffled()?.scene,
-            Drawing::Once | Drawing::Twice => bench.scene.clone(),
+        let other = match case.redraw {
+            Some(Redraw::Shuffled) => bench.shuffled()?.scene,
+            Some(Redraw::Same) | None => bench.scene.clone(),
         };
         let targets = match self.targets.take() {
             Some(made) if (made.width(), made.height()) == (view.width(), view.height()) => made,
@@ -92,9 +92,9 @@ impl<'a> Stand<'a> {
                 *is_warm = draw(&bench.scene).is_ok();
             }
             let start = Instant::now();
-            let drawn = draw(&bench.scene).and_then(|first| match case.drawing {
-                Drawing::Once => Ok((first, None)),
-                Drawing::Twice | Drawing::Shuffled => {
+            let drawn = draw(&bench.scene).and_then(|first| match case.redraw {
+                None => Ok((first, None)),
+                Some(_) => {
                     let second = draw(&other)?;
                     let differing = first.iter().zip(&second).filter(|(a, b)| a != b).count();
                     Ok((second, Some(differing)))
@@ -105,7 +105,7 @@ impl<'a> Stand<'a> {
             let cell = match drawn {
                 Ok((hits, differing)) => {
                     let picture = (&exam, pick(&hits, &pixels));
-                    let must_repeat = case.drawing == Drawing::Twice;
+                    let must_repeat = case.redraw == Some(Redraw::Same);
                     let judged = (picture.0, &picture.1[..]);
                     Cell::judged(place, (&setting.name, terms), judged, differing, must_repeat)
                 }

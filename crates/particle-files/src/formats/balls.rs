@@ -1,19 +1,4 @@
-//! Equal balls with positions of 16 bits: the format `.balls`, for a frame of a particle simulation.
-//!
-//! The file starts with the eight bytes `balls16\n`; the rest is a zlib stream of little-endian
-//! numbers without padding:
-//!
-//! | numbers | type | meaning |
-//! | --- | --- | --- |
-//! | 1 | u32 | count of balls |
-//! | 1 | f32 | support radius R of all of them, scene units |
-//! | 3 | f32 | least corner of the box around the centres, x, y, z |
-//! | 3 | f32 | step along x, y, z: a 65,535th of the box |
-//! | count | u16 | steps from the least corner in x, each as the difference to the ball before, modulo 2¹⁶ |
-//! | count | u16 | the same in y |
-//! | count | u16 | the same in z |
-//!
-//! Strengths are 1 and there are no colours. A centre moves by at most half a step on every axis.
+//! The format `.balls`: equal balls with positions of 16 bits, laid out as `FORMATS.md` says.
 
 use std::io::{Read, Write};
 
@@ -28,7 +13,7 @@ use crate::particles::Particles;
 
 const MAGIC: &[u8; 8] = b"balls16\n";
 
-/// Writes a scene's balls in the format of `.balls` files, described at the top of this file.
+/// Writes a scene's balls in the format of [`.balls` files](crate#packed-balls-and-frames).
 ///
 /// # Errors
 /// When radii differ, or the scene has strengths or colours: the format does not hold them.

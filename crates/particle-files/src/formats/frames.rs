@@ -1,22 +1,4 @@
-//! Frames of equal balls with positions of 16 bits: the format `.frames`, for a sequence in one file.
-//!
-//! The file starts with the nine bytes `frames16\n`; the rest is a zlib stream of little-endian
-//! numbers without padding:
-//!
-//! | numbers | type | meaning |
-//! | --- | --- | --- |
-//! | 1 | u32 | count of frames |
-//! | 1 | u32 | count of balls, the same in all frames |
-//! | 1 | f32 | support radius R of all of them, scene units |
-//! | 1 | f32 | step of the positions, scene units |
-//! | 3 | f32 | least corner of the box around the centres of all frames, x, y, z |
-//!
-//! then for each frame, and in it for x, y and z, `count` numbers u16, first all their low bytes, then
-//! all their high ones. A ball's number is its steps from the least corner, less what they would be had
-//! it continued as between the two frames before, modulo 2¹⁶: 2a − b where it was at a one frame before
-//! and at b two before; a in the second frame, 0 in the first.
-//!
-//! Strengths are 1 and there are no colours. A centre moves by at most half a step on every axis.
+//! The format `.frames`: frames of equal balls with positions of 16 bits, laid out as `FORMATS.md` says.
 
 use std::io::{Read, Write};
 
@@ -34,7 +16,7 @@ const MAGIC: &[u8; 9] = b"frames16\n";
 /// Bytes before the first frame: seven numbers of four.
 const HEADER: usize = 28;
 
-/// The frames of a `.frames` file, described at the top of this file: equal balls, positions rounded.
+/// The frames of a [`.frames` file](crate#packed-balls-and-frames).
 #[derive(Debug, Clone, PartialEq)]
 pub struct PackedFrames {
     radius: f32,
@@ -45,8 +27,8 @@ pub struct PackedFrames {
     steps: Vec<u16>,
 }
 
-/// Writes frames in the format of `.frames` files, described at the top of this file. All balls have
-/// the support radius; positions are rounded to multiples of `step`. Both are in scene units.
+/// Writes frames in the format of [`.frames` files](crate#packed-balls-and-frames). All balls have the
+/// support radius; positions are rounded to multiples of `step`. Both are in scene units.
 ///
 /// # Errors
 /// When there is no frame, frames differ in their number of balls, or the box around all centres is
