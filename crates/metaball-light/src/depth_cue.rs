@@ -1,4 +1,4 @@
-//! Depth made visible by contrast.
+//! Depth cueing: depth made visible by contrast.
 
 use glam::Vec3;
 use metaball_core::Hit;
@@ -28,7 +28,7 @@ impl Film {
     }
 }
 
-/// From 0 to 1.
+/// Depths from 0 at the nearest hit to 1 at the farthest and where there is none.
 fn depths(hits: &[Hit]) -> Vec<f32> {
     let found = || hits.iter().filter(|hit| hit.is_hit()).map(|hit| hit.t);
     let nearest = found().fold(f32::MAX, f32::min);
@@ -37,7 +37,7 @@ fn depths(hits: &[Hit]) -> Vec<f32> {
 }
 
 /// A Gaussian along lines of `count` numbers, `step` apart; the lines begin `line_step` apart. Beyond
-/// its ends a line goes on as it ends.
+/// its ends a line continues with its last number.
 fn blur(
     numbers: &[f32],
     count: usize,
@@ -51,12 +51,12 @@ fn blur(
     let total: f32 = (-reach..=reach).map(weight).sum();
     let mut blurred = vec![0.0; numbers.len()];
     for line in 0..lines {
-        for place in 0..count {
+        for index in 0..count {
             let near = |offset: isize| {
-                let at = place.saturating_add_signed(offset).min(count - 1);
+                let at = index.saturating_add_signed(offset).min(count - 1);
                 weight(offset) * numbers[line * line_step + at * step]
             };
-            blurred[line * line_step + place * step] =
+            blurred[line * line_step + index * step] =
                 (-reach..=reach).map(near).sum::<f32>() / total;
         }
     }

@@ -1,8 +1,9 @@
-//! What light does in a picture.
+//! Effects of light as plain values: surface, lamps, occlusion, floor and environment.
 
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 use metaball_core::Camera;
-use thiserror::Error;
+
+use crate::Panorama;
 
 /// The light of a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,17 +14,16 @@ pub struct Effects {
     pub lamps: Vec<Lamp>,
     /// Whether lamps cast shadows.
     pub shadows: bool,
-    /// Rays that feel for the surroundings. Without them a surface is lit by their mean.
+    /// Occlusion of the surroundings' light. Without it a surface is lit by their mean.
     pub occlusion: Option<Occlusion>,
-    /// Surfaces that a path may meet after the first: levels of reflection, or of surfaces seen through
-    /// each other. Beyond the last there are the floor and the surroundings: at 0 a mirror shows these
-    /// alone, which is environment mapping.
+    /// Surfaces that a path may meet after the first: levels of reflection or refraction. The last surface
+    /// reflects and refracts the floor and the environment alone: at 0 that is environment mapping.
     pub bounces: u32,
     /// What the scene stands on, if anything.
     pub floor: Option<Floor>,
-    /// What is seen where there is nothing.
+    /// What rays see that leave the scene.
     pub environment: Environment,
-    /// Bands of light in cel shading; 0 for smooth shades.
+    /// Bands of brightness in cel shading; 0 for smooth shading.
     pub bands: u32,
 }
 
@@ -44,7 +44,7 @@ pub enum Surface {
     },
 }
 
-/// A lamp so far away that all of the scene sees it in one direction.
+/// A distant lamp: all of the scene sees it in the same direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lamp {
     /// Towards the lamp, world space; any length but 0.
@@ -55,13 +55,14 @@ pub struct Lamp {
     pub color: Vec3,
 }
 
-/// Rays from each surface point that feel whether they leave the scene (Gourmel et al. 2010, figure
-/// 8 d: 64 of them).
+/// Ambient occlusion: rays from each surface point, each of which brings the environment's light if it hits
+/// nothing (Gourmel et al. 2010, figure 8 d: 64 of them).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Occlusion {
     /// Rays a surface point and sample.
     pub rays: u32,
-    /// Where they end, scene units; [`NO_LIMIT`](metaball_core::NO_LIMIT) to feel the whole scene.
+    /// Their length, scene units: what lies beyond does not occlude. [`NO_LIMIT`](metaball_core::NO_LIMIT)
+    /// for the whole scene.
     pub reach: f32,
 }
 
@@ -70,7 +71,8 @@ pub struct Occlusion {
 pub struct Floor {
     /// The point below the scene, world space.
     pub middle: Vec3,
-    /// How far around it the floor goes before it is lost in the surroundings, scene units, above 0.
+    /// The distance around it at which 1/e of the floor is left, the rest being horizon, scene units,
+    /// above 0.
     pub reach: f32,
     /// Its colour, linear.
     pub color: Vec3,
@@ -78,7 +80,7 @@ pub struct Floor {
     pub tile: f32,
 }
 
-/// What is seen where there is nothing.
+/// What rays see that leave the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Environment {
     /// A generated clear sky over a studio floor; y points up.
@@ -87,75 +89,8 @@ pub enum Environment {
     Panorama(Panorama),
 }
 
-/// An equirectangular image of the surroundings: columns go around the y axis, from −z over +x; rows
-/// from the zenith to the nadir.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Panorama {
-    columns: u32,
-    rows: u32,
-    light: Vec<Vec4>,
-}
-
-/// Why an image is no panorama.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum PanoramaError {
-    /// No pixels, or not one for each place.
-    #[error(
-        "panorama of {columns} × {rows}: needed as many pixels and at least one, found {found}"
-    )]
-    Size {
-        /// Pixels around.
-        columns: u32,
-        /// Pixels from zenith to nadir.
-        rows: u32,
-        /// Pixels given.
-        found: usize,
-    },
-    /// Light that is negative, infinite or NaN.
-    #[error("panorama pixel {index}: needed finite light of at least 0, found {found}")]
-    Light {
-        /// Index, row by row.
-        index: usize,
-        /// The light.
-        found: Vec3,
-    },
-}
-
-impl Panorama {
-    /// Linear light of each pixel, row by row from the zenith.
-    ///
-    /// # Errors
-    /// When the size does not fit or a pixel is no light.
-    pub fn new(
-        columns: u32,
-        rows: u32,
-        light: impl IntoIterator<Item = Vec3>,
-    ) -> Result<Self, PanoramaError> {
-        let light: Vec<_> = light.into_iter().map(|light| light.extend(0.0)).collect();
-        let found = light.len();
-        if found == 0 || found as u64 != u64::from(columns) * u64::from(rows) {
-            return Err(PanoramaError::Size { columns, rows, found });
-        }
-        let is_light = |light: &Vec4| light.is_finite() && light.min_element() >= 0.0;
-        if let Some(index) = light.iter().position(|light| !is_light(light)) {
-            return Err(PanoramaError::Light { index, found: light[index].truncate() });
-        }
-        Ok(Self { columns, rows, light })
-    }
-
-    /// Columns and rows.
-    pub(crate) fn size(&self) -> (u32, u32) {
-        (self.columns, self.rows)
-    }
-
-    pub(crate) fn light(&self) -> &[Vec4] {
-        &self.light
-    }
-}
-
 impl Effects {
-    /// Whether the view's first hits tell all: nothing is asked about the scene along further rays.
+    /// Whether the view's first hits are enough: no secondary ray is traced through the scene.
     pub fn end_at_first_surface(&self) -> bool {
         let is_opaque = matches!(self.surface, Surface::Opaque { .. });
         is_opaque && self.bounces == 0 && !self.need_shadow_rays()
@@ -198,21 +133,5 @@ impl Lamp {
                 color: 0.18 * Vec3::new(0.75, 0.85, 1.0),
             },
         ]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn panoramas_are_checked() {
-        assert!(Panorama::new(2, 1, [Vec3::ZERO, Vec3::ONE]).is_ok());
-        let size = Panorama::new(2, 2, [Vec3::ONE]).expect_err("refused");
-        assert_eq!(size, PanoramaError::Size { columns: 2, rows: 2, found: 1 });
-        assert!(Panorama::new(0, 0, []).is_err());
-        let light = Panorama::new(1, 1, [Vec3::new(0.0, -1.0, 0.0)]).expect_err("refused");
-        assert!(light.to_string().starts_with("panorama pixel 0"), "{light}");
-        assert!(Panorama::new(1, 1, [Vec3::NAN]).is_err());
     }
 }

@@ -1,7 +1,7 @@
-//! The picture as light.
+//! A picture in linear light.
 
 use glam::Vec3;
-use metaball_core::gpu::Image;
+use metaball_core::Image;
 
 /// Linear light of each pixel, row by row from the top left.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,12 +15,12 @@ pub struct Film {
 }
 
 impl Film {
-    /// The picture with sRGB's transfer function (IEC 61966-2-1). `stops` brighten it by powers of two;
-    /// what is brighter than white is white.
-    pub fn develop(&self, stops: f32) -> Image {
-        let exposure = stops.exp2();
+    /// The picture with sRGB's transfer function (IEC 61966-2-1). `exposure` is in stops: each doubles the
+    /// light. What is brighter than white is white.
+    pub fn develop(&self, exposure: f32) -> Image {
+        let gain = exposure.exp2();
         let pixel = |light: &Vec3| {
-            let byte = |channel: f32| (0.5 + 255.0 * encode(exposure * channel)) as u8;
+            let byte = |channel: f32| (0.5 + 255.0 * encode(gain * channel)) as u8;
             [byte(light.x), byte(light.y), byte(light.z), 255]
         };
         let rgba = self.light.iter().flat_map(pixel).collect();

@@ -1,47 +1,78 @@
-//! Light: what only ray tracing gives a picture of metaballs.
+//! Shadows, ambient occlusion, reflection and refraction for metaballs, by a path tracer on wgpu.
 //!
-//! Gourmel et al. 2010 built a structure that answers arbitrary rays for the sake of the effects of
-//! their figures 1 and 8: hard and soft shadows, ambient occlusion, mirrors to any depth, refraction.
-//! Here the effects exist once, outside the methods. They ask whatever implements
-//! [`RayTracer`](metaball_core::gpu::RayTracer), and know nothing else of it.
+//! The effects of Gourmel et al. 2010, figures 1 and 8, written once for all methods: the path tracer makes
+//! batches of rays, and whatever implements [`RayTracer`](metaball_core::gpu::RayTracer) answers them. Neither
+//! knows more of the other. [`Effects`] say how a picture is lit, a [`PathTracer`] adds samples of it, and the
+//! result is a [`Film`] of linear light.
+//!
+//! ```no_run
+//! use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
+//! use metaball_core::{Image, NO_LIMIT, Scene, View};
+//! use metaball_light::{Effects, Occlusion, PathTracer};
+//!
+//! /// A picture with soft occlusion. `renderer` has built `scene`.
+//! fn picture(
+//!     gpu: &Gpu,
+//!     renderer: &mut dyn IsoRenderer,
+//!     scene: &Scene,
+//!     view: &View,
+//! ) -> Result<Image, RenderError> {
+//!     let mut effects = Effects::phong(view.camera());
+//!     effects.occlusion = Some(Occlusion { rays: 4, reach: NO_LIMIT });
+//!
+//!     let (samples, seed) = (16, 0);
+//!     let mut tracer = PathTracer::new(gpu, scene, view, effects, samples, seed)?;
+//!     for _ in 0..samples {
+//!         tracer.add_sample(renderer)?;
+//!     }
+//!     Ok(tracer.film()?.develop(0.0))
+//! }
+//! ```
 //!
 //! # Theory
-//! *One path a pixel.* A sample of the picture follows one path of light backwards from the eye. All
-//! pixels take a step together: a batch of one ray a pixel is answered, a pass takes up the answers
-//! and makes the next batch, both along a list of those that ask anything. So a method's shader never holds an effect, and an effect's never a tree.
-//! A surface point sends *feelers*, which ask for any hit: one for each light that casts shadows, and
-//! one for each occlusion ray. What a feeler would bring arrives if it meets nothing.
+//! *One path a pixel.* A sample of the picture follows one path of light backwards from the eye. All pixels
+//! take a step together, as a wave: the method answers a batch of one ray a pixel, and a pass takes the answers
+//! and makes the next batch. Both run along a list of the pixels whose rays have a query, so that pixels whose
+//! paths have ended cost nothing. At each surface point a path sends a shadow ray to each lamp that casts
+//! shadows, and its occlusion rays, one after another. They query any hit, and bring their light if there is
+//! none.
 //!
-//! *Surfaces* ([`Surface`]). An opaque one has Phong's model, lit by lamps and by the surroundings, and
-//! may mirror: Schlick's approximation gives the share. A clear fluid reflects and refracts by Fresnel's
-//! equations and takes up light along the way (Beer and Lambert). Which of the two a sample follows is
-//! chosen as often as it has of the light, so that a path does not branch.
+//! *Surfaces* ([`Surface`]). An opaque surface has Phong's model, lit by lamps and by the environment, and may
+//! mirror by Schlick's approximation. A clear fluid reflects and refracts by Fresnel's equations and absorbs
+//! light along the way (Beer and Lambert). A path does not branch: it takes one of the two at random, with
+//! that one's share of the light as probability.
 //!
-//! *Sampling.* Points in the pixel, on a lamp and in the sky are those of Roberts' low-discrepancy
-//! sequence R2, shifted by a hash of pixel, purpose and seed: deterministic, and even at any number of
-//! samples.
+//! *Sampling.* Points in the pixel, on a lamp and in the sky are those of Roberts' low-discrepancy sequence R2,
+//! shifted by a hash of pixel, purpose and seed. The same seed gives the same picture.
 //!
-//! *The floor* ([`Floor`]) is the effects' own: paths meet it where it is nearer than the method's hit, and
-//! rays that ask a method never do.
+//! *The floor* ([`Floor`]) is the path tracer's own: a path meets it where it is nearer than the method's hit.
+//! No method knows of it.
 //!
-//! *Leaving a surface.* A ray starts beside the point that the last one found, off by the clearance that
-//! the method gives with its answer ([`PackedHit::clearance`](metaball_core::PackedHit::clearance)): an
-//! error bound, not a tuned epsilon, at any scale.
+//! *Secondary rays* start off the surface by the clearance that the method reports with its answer
+//! ([`PackedHit::clearance`](metaball_core::PackedHit::clearance)): a bound of its error, valid at any scale, in
+//! place of a tuned epsilon.
 //!
 //! # Practice
-//! [`PathTracer::new`] prepares a view with its [`Effects`], [`PathTracer::add_sample`] adds a sample, and
-//! [`PathTracer::film`] is the picture so far in linear light.
+//! Effects that [end at the first surface](Effects::end_at_first_surface) take the hits of a method's own
+//! frame, so every method can be lit that far. All others need a method with a
+//! [`RayTracer`](metaball_core::gpu::RayTracer) that answers their queries, and are an error without.
+//!
+//! One file does one thing: `path_tracer` holds the state of a picture, `waves` the sequence of batches and
+//! passes, `passes` the pipelines, `buffers` what they bind, and `twins` the structs that they share with
+//! `shaders/wgsl/light`.
 
 mod buffers;
 mod depth_cue;
 mod effects;
 mod film;
+mod panorama;
 mod passes;
 mod path_tracer;
 mod sampling;
 mod twins;
 mod waves;
 
-pub use effects::{Effects, Environment, Floor, Lamp, Occlusion, Panorama, PanoramaError, Surface};
+pub use effects::{Effects, Environment, Floor, Lamp, Occlusion, Surface};
 pub use film::Film;
+pub use panorama::{Panorama, PanoramaError};
 pub use path_tracer::PathTracer;

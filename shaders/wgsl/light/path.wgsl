@@ -80,7 +80,7 @@ struct Path {
 }
 
 // The path's ray runs outside of the solid, or inside. A path is complete when neither its own ray nor its
-// shadow ray asks anything.
+// shadow ray has a query.
 const OUTSIDE: u32 = 1u;
 const WITHIN: u32 = 2u;
 
