@@ -1,5 +1,5 @@
-//! Scenes that need more room or work than a frame begins with: the frame says so and is redone,
-//! and the picture is right.
+//! Scenes that need more capacity or work than a frame begins with: the frame reports it and is redone,
+//! and the picture is right. Frames without end are errors.
 
 use bench_scenes::{Overrides, load};
 use fbvh::{TraceOptions, Tracer, Tree};
@@ -7,7 +7,7 @@ use glam::Vec3;
 use harness::judge::Exam;
 use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
-use metaball_core::gpu::Gpu;
+use metaball_core::gpu::{FrameStatus, Gpu};
 use metaball_core::reference::Oracle;
 use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, View};
 
@@ -19,11 +19,12 @@ pub(super) fn trials() -> Vec<Trial> {
         let name = format!("capacity::dense_leaf::{}", method.name);
         on_gpu(name, move |gpu| dense_leaf(gpu, method.name))
     });
-    let apart = ["fbvh", "fbvh-certified"].into_iter().map(|method| {
-        let name = format!("capacity::different_ways::{method}");
-        on_gpu(name, move |gpu| different_ways(gpu, method))
+    let divergent = ["fbvh", "fbvh-certified"].into_iter().map(|method| {
+        let name = format!("capacity::divergent_rays::{method}");
+        on_gpu(name, move |gpu| divergent_rays(gpu, method))
     });
-    dense_leaves.chain(apart).collect()
+    let endless = on_gpu("capacity::frames_without_end_are_errors".to_owned(), endless_is_an_error);
+    dense_leaves.chain(divergent).chain([endless]).collect()
 }
 
 /// 1,200 balls that no plane can part, each with its own radius: a leaf test of more than a million
@@ -50,13 +51,13 @@ fn dense_leaf(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     pass(&findings)
 }
 
-/// Rays that graze a dense cloud and go different ways through its leaves, of 500 overlapping balls:
-/// invocations that run side by side wait for each other, and software Vulkan ends their loops after
+/// Rays that graze a dense cloud and diverge through its leaves, of 500 overlapping balls: invocations
+/// that run side by side wait for each other, and software Vulkan ends their loops after
 /// 65,535 iterations of all of them together. The shader finds what its twin on the CPU does.
-fn different_ways(gpu: &Gpu, method: &str) -> Result<(), Failed> {
+fn divergent_rays(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let scene = load("scattered:10000:500", &Overrides::default())?.scene.with_threshold(39.0)?;
-    let (eye, beside) = (Vec3::new(1.098, 0.769, 2.197), Vec3::new(0.747, 0.689, 1.264));
-    let camera = Camera::look_at(eye, beside, Vec3::Y, 4.0)?;
+    let (eye, target) = (Vec3::new(1.098, 0.769, 2.197), Vec3::new(0.747, 0.689, 1.264));
+    let camera = Camera::look_at(eye, target, Vec3::Y, 4.0)?;
     let view = View::new(camera, 16, 12)?;
     let picture = draw(gpu, renderer(method)?.as_mut(), &scene, &view)?;
 
@@ -73,4 +74,18 @@ fn different_ways(gpu: &Gpu, method: &str) -> Result<(), Failed> {
         0 => Err(format!("needed more than 50 hits to compare, found {hits}").into()),
         apart => Err(format!("{apart} of {} hits are not their twins'", twins.len()).into()),
     }
+}
+
+/// A frame of which some ray never reports that it is finished ends as an error, after a few attempts.
+fn endless_is_an_error(gpu: &Gpu) -> Result<(), Failed> {
+    let scene = load("two-merging", &Overrides::default())?.scene;
+    let mut renderer = renderer("fbvh-certified")?;
+    renderer.build(gpu, &scene)?;
+    let status = FrameStatus { unfinished: 1, needed: [0; 4] };
+    for _ in 0..20 {
+        if !renderer.grow(gpu, &status)? {
+            return Ok(());
+        }
+    }
+    Err("needed an end, found none after 20 attempts".into())
 }
