@@ -15,8 +15,8 @@ mod stability;
 mod twins;
 
 use bench_scenes::{BenchScene, Overrides};
+use harness::configuration::Configuration;
 use harness::judge::Terms;
-use harness::settings::Setting;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
 use metaball_core::{Hit, Ray, Scene, View};
@@ -57,7 +57,7 @@ fn on_gpu(
 }
 
 /// A method as it is listed.
-fn preset(method: &str) -> Result<Setting, Failed> {
+fn preset(method: &str) -> Result<Configuration, Failed> {
     let found = harness::methods::find(method);
     Ok(found.ok_or_else(|| format!("no method is called {method}"))?.into())
 }

@@ -23,13 +23,13 @@ use self::moved::Moved;
 use self::plan::{Extent, Planned, Purpose, plan};
 use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar};
-use harness::contest::{Rules, hold, steps};
+use harness::comparison::{self, compare_scene, steps};
+use harness::configuration::Configuration;
 use harness::machine::Provenance;
 use harness::measure::Sampling;
 use harness::numbers::decimal;
 use harness::output::write_json;
 use harness::record::{Adapter, Record, Status};
-use harness::settings::Setting;
 use picture_files::write_atomically;
 
 /// Name and version of the format of `chart.json`.
@@ -91,7 +91,7 @@ pub struct Group {
     pub supports_per_ray: f64,
     /// What a reader should know.
     pub remarks: Vec<String>,
-    /// One for each setting.
+    /// One for each configuration.
     pub records: Vec<Record>,
 }
 
@@ -134,7 +134,7 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
     let page = order.out.join("chart.html");
     write_atomically(&page, page::page(&chart).as_bytes())?;
 
-    for sentence in conclusions(&chart.contests()) {
+    for sentence in conclusions(&chart.error_records()) {
         console::line(&sentence);
     }
     if let Some(moved) = &chart.moved {
@@ -189,33 +189,35 @@ impl Chart {
     }
 
     /// The records of the charts of error, scene by scene.
-    fn contests(&self) -> Vec<&[Record]> {
+    fn error_records(&self) -> Vec<&[Record]> {
         let errors = self.groups.iter().filter(|group| group.purpose == Purpose::Error);
         errors.map(|group| group.records.as_slice()).collect()
     }
 
     /// Measures what is planned and not yet there, and writes the file after each scene.
     fn measure(&mut self, gpu: &Gpu, plan: &[Planned], path: &Path) -> anyhow::Result<()> {
-        let rules = |planned: &Planned| Rules {
-            settings: planned.settings.clone(),
+        let options = |planned: &Planned| comparison::Options {
+            configurations: planned.configurations.clone(),
             size: (self.width, self.height),
             sampling: FRAMES,
             along_path: false,
             every_pixel: false,
             counts_work: false,
         };
-        let rules: Vec<_> = plan.iter().map(rules).collect();
-        let progress = ProgressBar::new(rules.iter().map(steps).sum());
+        let options: Vec<_> = plan.iter().map(options).collect();
+        let progress = ProgressBar::new(options.iter().map(steps).sum());
         let mut done = 0;
-        for (planned, mut rules) in plan.iter().zip(rules) {
-            done += steps(&rules);
+        for (planned, mut options) in plan.iter().zip(options) {
+            done += steps(&options);
             if self.groups.iter().any(|group| group.is_of(planned)) {
                 progress.skip(done);
             } else {
                 progress.stage(format!("{}: loading", planned.spec));
                 let tired = self.tired(planned);
-                rules.settings.retain(|setting| !tired.contains_key(setting.method.name));
-                match group(gpu, planned, &rules, &progress, &tired) {
+                options
+                    .configurations
+                    .retain(|configuration| !tired.contains_key(configuration.method.name));
+                match group(gpu, planned, &options, &progress, &tired) {
                     Ok(group) => self.groups.push(group),
                     Err(error) => {
                         let remark = format!("{}: {error:#}", planned.spec);
@@ -275,16 +277,16 @@ fn read(path: &Path) -> anyhow::Result<Option<Chart>> {
 fn group(
     gpu: &Gpu,
     planned: &Planned,
-    rules: &Rules,
+    options: &comparison::Options,
     progress: &ProgressBar,
     tired: &BTreeMap<&'static str, String>,
 ) -> anyhow::Result<Group> {
     let bench = scene(planned)?;
-    let contest = hold(gpu, &bench, rules, progress)?;
-    let mut records = contest.records;
-    for setting in &planned.settings {
-        if let Some(reason) = tired.get(setting.method.name) {
-            records.push(skipped(gpu, &bench, rules, setting, reason));
+    let compared = compare_scene(gpu, &bench, options, progress)?;
+    let mut records = compared.records;
+    for configuration in &planned.configurations {
+        if let Some(reason) = tired.get(configuration.method.name) {
+            records.push(skipped(gpu, &bench, options, configuration, reason));
         }
     }
     Ok(Group {
@@ -293,7 +295,7 @@ fn group(
         balls: bench.scene.len(),
         density: bench_scenes::mean_overlap(&bench.scene),
         supports_per_ray: stage::supports_per_ray(&bench.scene, &bench.camera),
-        remarks: contest.remarks,
+        remarks: compared.remarks,
         records,
     })
 }
@@ -316,12 +318,12 @@ fn scene(planned: &Planned) -> anyhow::Result<BenchScene> {
     stage::staged(bench, camera, DENSITY_HITS)
 }
 
-/// The record of a setting that was not run.
+/// The record of a configuration that was not run.
 fn skipped(
     gpu: &Gpu,
     bench: &BenchScene,
-    rules: &Rules,
-    setting: &Setting,
+    options: &comparison::Options,
+    configuration: &Configuration,
     reason: &str,
 ) -> Record {
     Record {
@@ -329,10 +331,10 @@ fn skipped(
         balls: bench.scene.len(),
         kernel: bench.scene.kernel().to_string(),
         threshold: bench.scene.threshold(),
-        method: setting.method.name.to_owned(),
-        options: setting.options.clone(),
-        width: rules.size.0,
-        height: rules.size.1,
+        method: configuration.method.name.to_owned(),
+        options: configuration.options.clone(),
+        width: options.size.0,
+        height: options.size.1,
         adapter: Adapter::from(gpu.report()),
         status: Status::Skipped,
         reason: Some(reason.to_owned()),
@@ -361,7 +363,9 @@ mod tests {
         plan.truncate(2);
         for planned in &mut plan {
             let kept = ["fbvh", "fbvh, tolerance 1e-2", "illes"];
-            planned.settings.retain(|setting| kept.contains(&setting.to_string().as_str()));
+            planned
+                .configurations
+                .retain(|configuration| kept.contains(&configuration.to_string().as_str()));
         }
         let mut chart = Chart::begin(&gpu, &order);
         chart.measure(&gpu, &plan[..1], &path).expect("measured");
@@ -406,15 +410,15 @@ mod tests {
         let mut row = plan.iter().filter(|planned| planned.purpose == Purpose::Density);
         let (easy, hard) = (row.next().expect("a row"), row.next().expect("of two"));
         let bench = scene(easy).expect("loads");
-        let rules = Rules {
-            settings: Vec::new(),
+        let options = comparison::Options {
+            configurations: Vec::new(),
             size: (8, 6),
             sampling: FRAMES,
             along_path: false,
             every_pixel: false,
             counts_work: false,
         };
-        let record = skipped(&gpu, &bench, &rules, &easy.settings[0], "not run: too slow");
+        let record = skipped(&gpu, &bench, &options, &easy.configurations[0], "not run: too slow");
         let mut chart = Chart::begin(&gpu, &order);
         chart.groups.push(Group {
             purpose: Purpose::Density,
@@ -427,7 +431,7 @@ mod tests {
         });
         let tired = chart.tired(hard);
         assert_eq!(
-            tired.get(easy.settings[0].method.name).map(String::as_str),
+            tired.get(easy.configurations[0].method.name).map(String::as_str),
             Some("not run: too slow")
         );
         assert_eq!(tired.len(), 1);

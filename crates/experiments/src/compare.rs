@@ -9,7 +9,7 @@ use metaball_core::gpu::{AdapterChoice, Gpu};
 use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar, table};
 use crate::report::write_report;
-use harness::contest::{Contest, Rules, hold, steps};
+use harness::comparison::{self, SceneComparison, compare_scene, steps};
 use harness::machine::Provenance;
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Record, Records, SCHEMA, Status};
@@ -21,13 +21,13 @@ pub const DEFAULT_SCENES: &[&str] =
 
 /// What to compare.
 #[derive(Debug, Clone)]
-pub struct Comparison {
+pub struct Options {
     /// Names, generators or files.
     pub scenes: Vec<String>,
     /// What to change about every scene.
     pub overrides: Overrides,
     /// How.
-    pub rules: Rules,
+    pub comparison: comparison::Options,
     /// What to draw with.
     pub adapter: AdapterChoice,
     /// Folder for `index.html` and `records.json`.
@@ -39,52 +39,52 @@ pub struct Comparison {
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing worked at all.
-pub fn compare(comparison: &Comparison) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&comparison.adapter)?;
+pub fn compare(options: &Options) -> anyhow::Result<()> {
+    let gpu = Gpu::new(&options.adapter)?;
     console::note(&gpu.report().to_string());
 
-    let mut contests = Vec::new();
+    let mut scenes = Vec::new();
     let mut remarks = Vec::new();
     if gpu.report().is_software() {
         remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
     }
-    let progress = ProgressBar::new(steps(&comparison.rules) * comparison.scenes.len() as u64);
-    for (index, spec) in comparison.scenes.iter().enumerate() {
+    let progress = ProgressBar::new(steps(&options.comparison) * options.scenes.len() as u64);
+    for (index, spec) in options.scenes.iter().enumerate() {
         progress.stage(format!("{spec}: loading"));
-        let contest = load(spec, &comparison.overrides)
+        let scene = load(spec, &options.overrides)
             .map_err(anyhow::Error::from)
-            .and_then(|bench| hold(&gpu, &bench, &comparison.rules, &progress))
+            .and_then(|bench| compare_scene(&gpu, &bench, &options.comparison, &progress))
             .with_context(|| format!("scene {spec}"));
-        match contest {
-            Ok(contest) => contests.push(contest),
+        match scene {
+            Ok(scene) => scenes.push(scene),
             Err(error) => {
                 let remark = format!("{error:#}");
                 progress.note(&remark);
                 remarks.push(remark);
             }
         }
-        progress.reach(steps(&comparison.rules) * (index as u64 + 1));
+        progress.reach(steps(&options.comparison) * (index as u64 + 1));
     }
     drop(progress);
 
     let records = Records {
         provenance: Provenance::here(SCHEMA),
-        records: contests.iter().flat_map(|contest| contest.records.clone()).collect(),
+        records: scenes.iter().flat_map(|scene| scene.records.clone()).collect(),
     };
     let worked = records.records.iter().any(|record| record.status == Status::Ok);
     if worked {
         console::line(&results(&records.records));
-        let scenes: Vec<_> = contests.iter().map(|contest| contest.records.as_slice()).collect();
-        for sentence in conclusions(&scenes) {
+        let by_scene: Vec<_> = scenes.iter().map(|scene| scene.records.as_slice()).collect();
+        for sentence in conclusions(&by_scene) {
             console::line(&format!("\n{sentence}"));
         }
     }
-    for contest in &contests {
-        tell(contest);
+    for scene in &scenes {
+        tell(scene);
     }
-    let page = comparison.out.join("index.html");
-    records.write(&comparison.out.join("records.json"))?;
-    write_report(&page, &records, &contests, &remarks)?;
+    let page = options.out.join("index.html");
+    records.write(&options.out.join("records.json"))?;
+    write_report(&page, &records, &scenes, &remarks)?;
     console::line(&format!("\n{}", page.display()));
     anyhow::ensure!(worked, "nothing could be compared; the reasons stand above");
     Ok(())
@@ -131,13 +131,13 @@ fn results(records: &[Record]) -> String {
 }
 
 /// Says what the table leaves out.
-fn tell(contest: &Contest) {
-    for record in &contest.records {
+fn tell(scene: &SceneComparison) {
+    for record in &scene.records {
         if let Some(reason) = &record.reason {
             console::note(&format!("{}, {}: {reason}", record.scene, record.method));
         }
     }
-    for remark in &contest.remarks {
-        console::note(&format!("{}: {remark}", contest.scene));
+    for remark in &scene.remarks {
+        console::note(&format!("{}: {remark}", scene.scene));
     }
 }

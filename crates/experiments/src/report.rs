@@ -6,43 +6,43 @@ use std::path::Path;
 use crate::conclusions::conclusions;
 use crate::html::{base64, escape};
 use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
-use harness::contest::{Contest, Pictures};
+use harness::comparison::{Pictures, SceneComparison};
 use harness::heat::{AMBIGUOUS, ERROR_RANGE, MISS, NOT_COMPARED, SCALE, UNDECIDED, WRONG};
 use harness::methods;
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Measured, Record, Records};
 use picture_files::write_atomically;
 
-/// Writes the page about contests and their records.
+/// Writes the page about scenes and their records.
 ///
 /// # Errors
 /// When the file cannot be written.
 pub fn write_report(
     path: &Path,
     records: &Records,
-    contests: &[Contest],
+    scenes: &[SceneComparison],
     remarks: &[String],
 ) -> anyhow::Result<()> {
-    Ok(write_atomically(path, page(records, contests, remarks).as_bytes())?)
+    Ok(write_atomically(path, page(records, scenes, remarks).as_bytes())?)
 }
 
 /// The page. `remarks` are about the whole run.
-fn page(records: &Records, contests: &[Contest], remarks: &[String]) -> String {
-    let rows: String = contests.iter().map(table_rows).collect();
-    let scenes: String = contests.iter().map(scene_section).collect();
+fn page(records: &Records, scenes: &[SceneComparison], remarks: &[String]) -> String {
+    let rows: String = scenes.iter().map(table_rows).collect();
+    let sections: String = scenes.iter().map(scene_section).collect();
     let parts = [
-        ("conclusions", sentences(contests)),
+        ("conclusions", sentences(scenes)),
         ("facts", facts(records)),
         ("remarks", remark_paragraphs(remarks)),
         ("rows", rows),
-        ("scenes", scenes),
+        ("scenes", sections),
     ];
     page::page("Metaball ray casters compared", include_str!("report.html"), &parts)
 }
 
 /// Which method to use for what.
-fn sentences(contests: &[Contest]) -> String {
-    let records: Vec<_> = contests.iter().map(|contest| contest.records.as_slice()).collect();
+fn sentences(scenes: &[SceneComparison]) -> String {
+    let records: Vec<_> = scenes.iter().map(|scene| scene.records.as_slice()).collect();
     conclusion_paragraphs(&conclusions(&records))
 }
 
@@ -53,9 +53,9 @@ fn facts(records: &Records) -> String {
         + &size.map_or_else(String::new, |size| fact("Picture", &size))
 }
 
-fn table_rows(contest: &Contest) -> String {
+fn table_rows(scene: &SceneComparison) -> String {
     let mut rows = String::new();
-    for (index, record) in contest.records.iter().enumerate() {
+    for (index, record) in scene.records.iter().enumerate() {
         let class = if index == 0 { " class=\"first\"" } else { "" };
         let _ = write!(
             rows,
@@ -115,17 +115,17 @@ fn measured_cells(measured: &Measured) -> String {
     cells.iter().enumerate().map(cell).collect()
 }
 
-fn scene_section(contest: &Contest) -> String {
+fn scene_section(scene: &SceneComparison) -> String {
     let mut section = format!(
         "<section>\n<h2>{}</h2>\n<p>{}{}</p>\n{}",
-        escape(&contest.scene),
-        escape(&contest.about),
-        contest.records.first().map_or_else(String::new, field_sentence),
-        remark_paragraphs(&contest.remarks)
+        escape(&scene.scene),
+        escape(&scene.about),
+        scene.records.first().map_or_else(String::new, field_sentence),
+        remark_paragraphs(&scene.remarks)
     );
-    if let Some(reference) = &contest.reference {
+    if let Some(reference) = &scene.reference {
         let shaded = |pictures: &Pictures| {
-            figure(&pictures.shaded, title(pictures), &passes(contest, pictures))
+            figure(&pictures.shaded, title(pictures), &passes(scene, pictures))
         };
         let heat = |pictures: &Pictures| {
             figure(&pictures.heat, title(pictures), "difference to the reference")
@@ -133,11 +133,11 @@ fn scene_section(contest: &Contest) -> String {
         let _ = write!(
             section,
             "<div class=\"scroll\"><div class=\"grid\" style=\"--columns:{}\">\n{}{}{}{}</div></div>\n",
-            contest.pictures.len() + 1,
+            scene.pictures.len() + 1,
             figure(reference, "Reference", "exact, computed in f64"),
-            contest.pictures.iter().map(shaded).collect::<String>(),
+            scene.pictures.iter().map(shaded).collect::<String>(),
             legend(),
-            contest.pictures.iter().map(heat).collect::<String>(),
+            scene.pictures.iter().map(heat).collect::<String>(),
         );
     }
     section + "</section>\n"
@@ -148,8 +148,8 @@ fn field_sentence(record: &Record) -> String {
 }
 
 /// What the method's frame spends its time on, longest first.
-fn passes(contest: &Contest, pictures: &Pictures) -> String {
-    let record = contest.records.iter().find(|record| record.method == pictures.method);
+fn passes(scene: &SceneComparison, pictures: &Pictures) -> String {
+    let record = scene.records.iter().find(|record| record.method == pictures.method);
     let Some(measured) = record.and_then(|record| record.measured.as_ref()) else {
         return String::new();
     };
@@ -215,7 +215,7 @@ mod tests {
             },
             records: Vec::new(),
         };
-        let contest = Contest {
+        let scene = SceneComparison {
             scene: "{{facts}}<b>".to_owned(),
             about: "<i>".to_owned(),
             records: Vec::new(),
@@ -223,7 +223,7 @@ mod tests {
             pictures: vec![Pictures { method: "bvh", shaded: vec![4], heat: vec![5] }],
             remarks: vec!["<u>".to_owned()],
         };
-        let page = page(&records, &[contest], &["R < 1".to_owned()]);
+        let page = page(&records, &[scene], &["R < 1".to_owned()]);
         for forbidden in ["<script", "<b>", "<i>", "<u>", "http", "src=\"/", "url("] {
             assert!(!page.contains(forbidden), "{forbidden}");
         }

@@ -19,9 +19,9 @@ use self::patience::rests;
 use self::record::{Limit, SCHEMA, Stability};
 use self::stand::Stand;
 use crate::console::{self, ProgressBar, table};
+use harness::configuration::Configuration;
+use harness::configuration::variants::stability_configurations;
 use harness::machine::Provenance;
-use harness::settings::Setting;
-use harness::settings::variants::entrants;
 use picture_files::write_atomically;
 
 /// What to try.
@@ -32,14 +32,14 @@ pub struct Order {
     /// Names of cases; all when empty.
     pub cases: Vec<&'static Case>,
     /// Methods with their options; all when empty.
-    pub methods: Vec<Setting>,
+    pub methods: Vec<Configuration>,
     /// What to draw with.
     pub adapter: AdapterChoice,
     /// Folder for `index.html` and `records.json`.
     pub out: PathBuf,
 }
 
-/// Tries every case on every entrant, prints the limits, writes the page and the records. What an
+/// Tries every case on every configuration, prints the limits, writes the page and the records. What an
 /// interrupted run of the same command has done is taken over.
 ///
 /// # Errors
@@ -49,7 +49,8 @@ pub fn stability(order: &Order) -> anyhow::Result<()> {
     console::note(&gpu.report().to_string());
     let chosen: Vec<_> =
         if order.cases.is_empty() { cases().iter().collect() } else { order.cases.clone() };
-    let methods = if order.methods.is_empty() { entrants() } else { order.methods.clone() };
+    let methods =
+        if order.methods.is_empty() { stability_configurations() } else { order.methods.clone() };
 
     let mut stability = Stability {
         provenance: Provenance::here(SCHEMA),
@@ -64,7 +65,7 @@ pub fn stability(order: &Order) -> anyhow::Result<()> {
         stability.write(&unfinished)
     })?;
 
-    let limit_of = |case: &&Case, method: &Setting| {
+    let limit_of = |case: &&Case, method: &Configuration| {
         Limit::of(case, &stability.of(case.name, &method.name).collect::<Vec<_>>())
     };
     let of_case = |case| methods.iter().filter_map(move |method| limit_of(case, method));
@@ -87,7 +88,7 @@ fn values(case: &Case, quick: bool) -> &'static [f64] {
 fn climb(
     gpu: &Gpu,
     quick: bool,
-    (cases, methods): (&[&'static Case], &[Setting]),
+    (cases, methods): (&[&'static Case], &[Configuration]),
     mut cells: Vec<Cell>,
     mut keep: impl FnMut(&[Cell]) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
@@ -107,7 +108,8 @@ fn climb(
                 progress.skip(done);
             } else {
                 let easier = || cells.iter().filter(|cell| cell.case == case.name);
-                let tried = stand.attempt(case, value, |entrant| rests(easier(), entrant))?;
+                let tried =
+                    stand.attempt(case, value, |configuration| rests(easier(), configuration))?;
                 cells.extend(tried);
                 keep(&cells)?;
                 progress.reach(done);
@@ -125,11 +127,11 @@ fn remove(path: &Path) {
 }
 
 /// The limits as text: one line a case, one column a method.
-fn summary(stability: &Stability, cases: &[&Case], methods: &[Setting]) -> String {
+fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) -> String {
     let mut headings = vec!["first value that is not right"];
     headings.extend(methods.iter().map(|method| method.name.as_str()));
     let row = |case: &&Case| {
-        let limit = |method: &Setting| {
+        let limit = |method: &Configuration| {
             stability.limit(case.name, &method.name).map_or_else(String::new, |limit| {
                 let value = limit
                     .fails_at

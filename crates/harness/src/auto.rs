@@ -9,7 +9,7 @@
 pub mod cache;
 pub mod calibration;
 pub mod choice;
-pub mod stage;
+pub mod reference_view;
 
 use metaball_core::gpu::{
     BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RayTracer, RenderError,
@@ -19,7 +19,7 @@ use metaball_core::{Scene, View};
 use self::cache::{Cache, Key};
 use self::calibration::calibrate;
 use self::choice::Choice;
-use crate::settings::Setting;
+use crate::configuration::Configuration;
 
 /// Default of the largest error, mean support radii: a fiftieth of what makes a wrong front, and what
 /// the coarsest published root finder keeps.
@@ -28,7 +28,7 @@ pub const MAX_ERROR: f64 = 1e-3;
 /// Draws with what it has chosen for the scene. Building includes choosing, whose time is not in the
 /// report of the build.
 pub struct Auto {
-    candidates: Vec<Setting>,
+    candidates: Vec<Configuration>,
     view: View,
     max_error: f64,
     cache: Cache,
@@ -48,7 +48,7 @@ impl Auto {
     /// `max_error` mean support radii. The renderer that it chooses counts its work or, as when
     /// timing, does not.
     pub fn new(
-        candidates: Vec<Setting>,
+        candidates: Vec<Configuration>,
         view: View,
         max_error: f64,
         cache: Cache,
@@ -71,9 +71,9 @@ impl Auto {
     }
 
     fn choose(&self, gpu: &Gpu, scene: &Scene) -> Result<(Choice, String), RenderError> {
-        let names = self.candidates.iter().map(|setting| setting.name.as_str());
+        let names = self.candidates.iter().map(|configuration| configuration.name.as_str());
         let key = Key::new(gpu, scene, &self.view, self.max_error, names);
-        let is_known = |choice: &Choice| self.setting(choice).is_some();
+        let is_known = |choice: &Choice| self.configuration(choice).is_some();
         if let Some(choice) = self.cache.find(&key).filter(is_known) {
             return Ok((choice, "made earlier, for the same scene, view and adapter".to_owned()));
         }
@@ -85,8 +85,8 @@ impl Auto {
         Ok((choice, origin))
     }
 
-    fn setting(&self, choice: &Choice) -> Option<&Setting> {
-        self.candidates.iter().find(|setting| setting.name == choice.setting)
+    fn configuration(&self, choice: &Choice) -> Option<&Configuration> {
+        self.candidates.iter().find(|configuration| configuration.name == choice.configuration)
     }
 
     fn renderer(&mut self) -> Result<&mut dyn IsoRenderer, RenderError> {
@@ -107,11 +107,12 @@ impl IsoRenderer for Auto {
     fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError> {
         self.chosen = None;
         let (choice, origin) = self.choose(gpu, scene)?;
-        let setting = self.setting(&choice).ok_or_else(|| RenderError::Unsupported {
-            method: NAME,
-            reason: format!("needed a candidate called {}, found none", choice.setting),
-        })?;
-        let mut renderer = setting.renderer(self.counting);
+        let configuration =
+            self.configuration(&choice).ok_or_else(|| RenderError::Unsupported {
+                method: NAME,
+                reason: format!("needed a candidate called {}, found none", choice.configuration),
+            })?;
+        let mut renderer = configuration.renderer(self.counting);
         let report = renderer.build(gpu, scene)?;
         self.chosen = Some(Chosen { choice, renderer, origin });
         Ok(report)
@@ -146,11 +147,14 @@ mod tests {
 
     use super::*;
     use crate::auto::choice::Errors;
-    use crate::settings::sweeps::candidates;
+    use crate::configuration::sweeps::candidates;
 
-    fn few() -> Vec<Setting> {
+    fn few() -> Vec<Configuration> {
         let kept = ["fbvh-certified", "illes", "illes-exact"];
-        candidates().into_iter().filter(|setting| kept.contains(&setting.name.as_str())).collect()
+        candidates()
+            .into_iter()
+            .filter(|configuration| kept.contains(&configuration.name.as_str()))
+            .collect()
     }
 
     fn auto(bench: &BenchScene, max_error: f64, cache: &Cache) -> Auto {
@@ -173,7 +177,8 @@ mod tests {
         let rays = targets.read_rays(&gpu, &view).expect("rays");
         let truths = Oracle::new(&bench.scene).first_hits(&rays);
         let hits = targets.read_hits(&gpu).expect("hits");
-        let errors = Errors::of(truths.iter().zip(&hits), stage::mean_radius(&bench.scene));
+        let errors =
+            Errors::of(truths.iter().zip(&hits), reference_view::mean_radius(&bench.scene));
         assert!(errors.keep(MAX_ERROR), "{errors:?}");
         // The cubic is out at this error: its p99 is percents of a radius.
         let choice = first.choice().expect("chosen").clone();
@@ -182,7 +187,7 @@ mod tests {
         // The second one finds the choice; a broken file is replaced, not believed.
         let mut second = auto(&bench, MAX_ERROR, &cache);
         second.build(&gpu, &bench.scene).expect("chosen");
-        assert_eq!(second.choice().expect("chosen").setting, choice.setting);
+        assert_eq!(second.choice().expect("chosen").configuration, choice.configuration);
         assert!(second.account().iter().any(|(_, text)| text.starts_with("made earlier")));
         for file in std::fs::read_dir(folder.path()).expect("made") {
             std::fs::write(file.expect("there").path(), "{ half a fi").expect("written");

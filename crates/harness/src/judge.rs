@@ -81,14 +81,14 @@ pub struct Findings {
 }
 
 /// Rays of a view with the truth about each.
-pub struct Exam<'a> {
+pub struct Judge<'a> {
     scene: &'a Scene,
     oracle: &'a Oracle<'a>,
     rays: &'a [Ray],
     truths: Vec<Truth>,
 }
 
-impl<'a> Exam<'a> {
+impl<'a> Judge<'a> {
     /// Asks the oracle.
     pub fn new(scene: &'a Scene, oracle: &'a Oracle<'a>, rays: &'a [Ray]) -> Self {
         Self { scene, oracle, rays, truths: oracle.first_hits(rays) }

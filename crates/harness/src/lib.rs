@@ -1,12 +1,19 @@
-//! What a contender is put into: methods that draw a scene, and how they are judged.
+//! What methods are measured with: the list of them, and how their pictures are compared, timed and
+//! judged.
 //!
-//! [`contest`] is the heart: it takes a scene through [`methods`] with their [`settings`], asks the
-//! oracle about the rays that the shaders used ([`mod@reference`]), and yields a [`record`] for each.
-//! [`score`] holds the one set of definitions of what is wrong, [`measure`] those of what is fast,
-//! [`judge`] what each method promises and is held to. [`auto`] chooses who draws.
+//! - [`methods`] is the only list of methods; a [`technique`] is what one does, with its options, and a
+//!   [`mod@configuration`] is a method with some of them set otherwise.
+//! - [`comparison`] draws a scene with all configurations, holds the pictures against the oracle along the
+//!   rays that the shaders used ([`mod@reference`], on a [`subset`] of large pictures) and yields a
+//!   [`record`] for each. [`score`] defines what is wrong, [`measure`] what is fast, [`heat`] draws the
+//!   difference.
+//! - [`judge`] holds a picture to what its method promises.
+//! - [`auto`] chooses the quickest configuration that is right enough for a scene.
+//! - [`machine`], [`output`], [`numbers`], [`stats`] and [`progress`] are what all of these need.
 
 pub mod auto;
-pub mod contest;
+pub mod comparison;
+pub mod configuration;
 pub mod fronts;
 pub mod heat;
 pub mod judge;
@@ -19,7 +26,6 @@ pub mod progress;
 pub mod record;
 pub mod reference;
 pub mod score;
-pub mod settings;
 pub mod stats;
 pub mod subset;
 pub mod technique;

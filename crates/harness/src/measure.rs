@@ -12,7 +12,7 @@ use crate::stats::median;
 
 /// A renderer that has built its structure for a scene and drawn it once: warm, and with all the room
 /// that its first frame needed.
-pub struct Contender {
+pub struct PreparedRenderer {
     /// What building took.
     pub build: BuildReport,
     /// What it found in the frame drawn last apart from timing, row by row from the top left.
@@ -48,7 +48,7 @@ pub struct Timing {
     pub passes: BTreeMap<String, f64>,
 }
 
-impl Contender {
+impl PreparedRenderer {
     /// Builds for the scene and draws the view into the targets, which have work counters if the
     /// renderer counts.
     ///
@@ -96,25 +96,25 @@ impl Contender {
     }
 }
 
-/// Draws every view with every contender, in turn: A B A B, so that a machine that grows hot or busy
-/// is so for all. A contender that fails has an error in its place and is not drawn again, nor is one
-/// that has had `enough` of at least two frames. Calls `after_frame` for each view and contender.
+/// Draws every view with every renderer, in turn: A B A B, so that a machine that grows hot or busy
+/// is so for all. A renderer that fails has an error in its place and is not drawn again, nor is one
+/// that has had `enough` of at least two frames. Calls `after_frame` for each view and renderer.
 pub fn time_all(
     gpu: &Gpu,
-    contenders: &mut [Contender],
+    renderers: &mut [PreparedRenderer],
     targets: &Targets,
     views: &[View],
     enough: Duration,
     mut after_frame: impl FnMut(),
 ) -> Vec<Result<Timing, RenderError>> {
     let mut frames: Vec<Result<Frames, RenderError>> =
-        contenders.iter().map(|_| Ok(Frames::default())).collect();
+        renderers.iter().map(|_| Ok(Frames::default())).collect();
     for view in views {
-        for (contender, frames) in contenders.iter_mut().zip(&mut frames) {
+        for (renderer, frames) in renderers.iter_mut().zip(&mut frames) {
             if let Ok(taken) = frames
                 && !(taken.wall_ms.len() >= LEAST_FRAMES && taken.total() >= enough)
             {
-                match contender.draw(gpu, targets, view) {
+                match renderer.draw(gpu, targets, view) {
                     Ok(report) => taken.add(report.wall, &report.passes),
                     Err(error) => *frames = Err(error),
                 }
@@ -129,7 +129,7 @@ pub fn time_all(
 /// down.
 ///
 /// # Errors
-/// As [`Contender::prepare`].
+/// As [`PreparedRenderer::prepare`].
 pub fn count_work(
     gpu: &Gpu,
     mut renderer: Box<dyn IsoRenderer>,

@@ -122,7 +122,7 @@ impl Judgement {
 }
 
 /// Whether so many of the rays are ambiguous, more than one in a thousand, that a scene should say so.
-pub fn is_murky(ambiguous: usize, rays: usize) -> bool {
+pub fn many_are_ambiguous(ambiguous: usize, rays: usize) -> bool {
     ambiguous * 1000 > rays
 }
 
@@ -346,8 +346,8 @@ mod tests {
         assert!(judge(truth, at(4.89)).is_wrong());
         assert!(judge(truth, Hit::MISS).is_wrong());
         // The same error on an ambiguous ray is counted there and not here.
-        let murky = Truth { margin: 1e-5, ..truth };
-        assert!(judge(murky, Hit::MISS).ambiguous && !judge(murky, Hit::MISS).is_wrong());
+        let ambiguous = Truth { margin: 1e-5, ..truth };
+        assert!(judge(ambiguous, Hit::MISS).ambiguous && !judge(ambiguous, Hit::MISS).is_wrong());
         let clear = Truth { margin: 1.1e-5, ..truth };
         assert!(judge(clear, Hit::MISS).is_wrong());
     }

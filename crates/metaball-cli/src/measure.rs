@@ -6,14 +6,14 @@ use bench_scenes::Case;
 use clap::Args;
 use experiments::certify::{self, certify};
 use experiments::chart::{self, chart};
-use experiments::compare::{Comparison, DEFAULT_SCENES, compare};
+use experiments::compare::{self, DEFAULT_SCENES, compare};
 use experiments::stability::{self, stability};
-use harness::contest::Rules;
+use harness::comparison;
+use harness::configuration::Configuration;
 use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, Method, methods};
-use harness::settings::Setting;
 
-use crate::names::{case_parser, entrant_parser, method_parser};
+use crate::names::{case_parser, configuration_parser, method_parser};
 use crate::shared::{AdapterArgs, PictureArgs};
 use crate::values;
 
@@ -48,8 +48,8 @@ pub(crate) struct CompareArgs {
 impl CompareArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         let chosen = if self.every_method { methods().iter().collect() } else { self.methods };
-        let rules = Rules {
-            settings: chosen.into_iter().map(Setting::preset).collect(),
+        let comparison = comparison::Options {
+            configurations: chosen.into_iter().map(Configuration::preset).collect(),
             size: self.shared.size,
             sampling: self.frames.map_or(Sampling::QUICK, |n| Sampling::exactly(n.into())),
             along_path: self.path,
@@ -57,7 +57,13 @@ impl CompareArgs {
             counts_work: true,
         };
         let (overrides, adapter) = (self.shared.overrides(), self.shared.device.choice());
-        compare(&Comparison { scenes: self.scenes, overrides, rules, adapter, out: self.out })
+        compare(&compare::Options {
+            scenes: self.scenes,
+            overrides,
+            comparison,
+            adapter,
+            out: self.out,
+        })
     }
 }
 
@@ -100,8 +106,8 @@ pub(crate) struct StabilityArgs {
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = case_parser())]
     cases: Vec<&'static Case>,
     /// Methods and their options, separated by commas; all when left out.
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = entrant_parser())]
-    methods: Vec<Setting>,
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = configuration_parser())]
+    methods: Vec<Configuration>,
     /// Folder for index.html and records.json.
     #[arg(long, value_name = "DIR", default_value = "out/stability")]
     out: PathBuf,

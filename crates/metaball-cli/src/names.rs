@@ -2,9 +2,9 @@
 
 use bench_scenes::Case;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use harness::configuration::Configuration;
+use harness::configuration::variants::stability_configurations;
 use harness::methods::{Method, find, methods};
-use harness::settings::Setting;
-use harness::settings::variants::entrants;
 
 /// A method by name.
 pub(crate) fn method_parser() -> impl TypedValueParser<Value = &'static Method> {
@@ -33,12 +33,13 @@ pub(crate) fn case_parser() -> impl TypedValueParser<Value = &'static Case> {
 }
 
 /// A method, or one with an option turned, by name.
-pub(crate) fn entrant_parser() -> impl TypedValueParser<Value = Setting> {
+pub(crate) fn configuration_parser() -> impl TypedValueParser<Value = Configuration> {
     // Names on the command line live as long as the program.
-    let leak = |entrant: Setting| PossibleValue::new(&*entrant.name.leak());
-    let names = entrants().into_iter().map(leak);
+    let leak = |configuration: Configuration| PossibleValue::new(&*configuration.name.leak());
+    let names = stability_configurations().into_iter().map(leak);
     PossibleValuesParser::new(names).map(|name| {
-        let mut all = entrants().into_iter();
-        all.find(|entrant| entrant.name == name).expect("only names of entrants pass")
+        let mut all = stability_configurations().into_iter();
+        all.find(|configuration| configuration.name == name)
+            .expect("only names of configurations pass")
     })
 }

@@ -182,9 +182,9 @@ fn chosen(
     scene: &Scene,
     view: &View,
 ) -> Result<Built, Error> {
-    let mut candidates = harness::settings::sweeps::candidates();
-    candidates.retain(|setting| {
-        options.light.is_given_by_tree(setting.technique.tree().map(|options| options.kind()))
+    let mut candidates = harness::configuration::sweeps::candidates();
+    candidates.retain(|configuration| {
+        options.light.is_given_by_tree(configuration.technique.tree().map(|options| options.kind()))
     });
     let (cache, counts) = (choosing.cache.clone(), options.counts());
     let mut auto =

@@ -11,7 +11,7 @@ pub enum Method {
     Tree(Options),
     /// Any method of the harness.
     #[cfg(feature = "harness")]
-    Listed(harness::settings::Setting),
+    Listed(harness::configuration::Configuration),
     /// Whatever is quickest on the scene and right enough.
     #[cfg(feature = "harness")]
     Auto(Choosing),
@@ -40,7 +40,7 @@ impl Method {
         match self {
             Self::Tree(options) => tree_name(options.kind()),
             #[cfg(feature = "harness")]
-            Self::Listed(setting) => &setting.name,
+            Self::Listed(configuration) => &configuration.name,
             #[cfg(feature = "harness")]
             Self::Auto(_) => "auto",
         }
@@ -51,7 +51,7 @@ impl Method {
         match self {
             Self::Tree(options) => Some(*options),
             #[cfg(feature = "harness")]
-            Self::Listed(setting) => setting.technique.tree(),
+            Self::Listed(configuration) => configuration.technique.tree(),
             #[cfg(feature = "harness")]
             Self::Auto(_) => None,
         }
@@ -66,7 +66,7 @@ impl Method {
                 Some(Box::new(fbvh::gpu::Renderer::new(name, *options, trace, counting)))
             }
             #[cfg(feature = "harness")]
-            Self::Listed(setting) => Some(setting.renderer(counting)),
+            Self::Listed(configuration) => Some(configuration.renderer(counting)),
             #[cfg(feature = "harness")]
             Self::Auto(_) => None,
         }
@@ -77,7 +77,7 @@ impl Method {
         let paper = match self {
             Self::Tree(options) => tree_paper(options.kind()),
             #[cfg(feature = "harness")]
-            Self::Listed(setting) => setting.method.paper,
+            Self::Listed(configuration) => configuration.method.paper,
             #[cfg(feature = "harness")]
             Self::Auto(_) => "",
         };

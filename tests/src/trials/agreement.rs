@@ -1,9 +1,9 @@
 //! Every method, and every variant of one, against the oracle on every scene, and each against every
 //! other.
 
+use harness::configuration::Configuration;
+use harness::configuration::variants::stability_configurations;
 use harness::judge::{Findings, Terms};
-use harness::settings::Setting;
-use harness::settings::variants::entrants;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Scene;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
@@ -14,17 +14,17 @@ use super::{on_gpu, scenes};
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for scene in scenes() {
-        let entrants = entrants();
-        for (index, ours) in entrants.iter().enumerate() {
-            for theirs in entrants[index + 1..].iter().cloned() {
+        let configurations = stability_configurations();
+        for (index, ours) in configurations.iter().enumerate() {
+            for theirs in configurations[index + 1..].iter().cloned() {
                 let name = format!("agreement::{scene}::{}~{}", ours.name, theirs.name);
                 let ours = ours.clone();
                 trials.push(on_gpu(name, move |gpu| with_each_other(gpu, scene, &ours, &theirs)));
             }
         }
-        for entrant in entrants {
-            let name = format!("agreement::{scene}::{}", entrant.name);
-            trials.push(on_gpu(name, move |gpu| with_oracle(gpu, scene, &entrant)));
+        for configuration in configurations {
+            let name = format!("agreement::{scene}::{}", configuration.name);
+            trials.push(on_gpu(name, move |gpu| with_oracle(gpu, scene, &configuration)));
         }
     }
     trials
@@ -39,12 +39,20 @@ pub(super) fn pass(findings: &Findings) -> Result<(), Failed> {
     Err(format!("{} violations\n  {shown}", findings.violations.len()).into())
 }
 
-fn with_oracle(gpu: &Gpu, scene: &'static str, entrant: &Setting) -> Result<(), Failed> {
+fn with_oracle(
+    gpu: &Gpu,
+    scene: &'static str,
+    configuration: &Configuration,
+) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    if let Some(reason) = entrant.technique.refusal(&room.scene.scene) {
-        return refuses(gpu, entrant.renderer(false).as_mut(), &room.scene.scene, reason);
+    if let Some(reason) = configuration.technique.refusal(&room.scene.scene) {
+        return refuses(gpu, configuration.renderer(false).as_mut(), &room.scene.scene, reason);
     }
-    pass(&room.exam.judge(&picture(gpu, scene, entrant)?, &Terms::of(&entrant.technique)))
+    pass(
+        &room
+            .judge
+            .judge(&picture(gpu, scene, configuration)?, &Terms::of(&configuration.technique)),
+    )
 }
 
 fn refuses(
@@ -62,16 +70,18 @@ fn refuses(
 fn with_each_other(
     gpu: &Gpu,
     scene: &'static str,
-    ours: &Setting,
-    theirs: &Setting,
+    ours: &Configuration,
+    theirs: &Configuration,
 ) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
-    let is_refused = |entrant: &Setting| entrant.technique.refusal(&room.scene.scene).is_some();
+    let is_refused = |configuration: &Configuration| {
+        configuration.technique.refusal(&room.scene.scene).is_some()
+    };
     if is_refused(ours) || is_refused(theirs) {
         // There is one picture at most; that the other is refused is tested with the oracle.
         return Ok(());
     }
     let (first, second) = (picture(gpu, scene, ours)?, picture(gpu, scene, theirs)?);
-    let promise = |entrant: &Setting| entrant.technique.promise();
-    pass(&room.exam.compare((&first, promise(ours)), (&second, promise(theirs))))
+    let promise = |configuration: &Configuration| configuration.technique.promise();
+    pass(&room.judge.compare((&first, promise(ours)), (&second, promise(theirs))))
 }

@@ -53,9 +53,9 @@ pub(super) fn rejects_spoilt(
 ) -> Result<(), Failed> {
     let room = room(gpu, scene)?;
     let mut hits = picture(gpu, scene, &preset(method)?)?.to_vec();
-    pass(&room.exam.judge(&hits, &terms_of(method)?))?;
+    pass(&room.judge.judge(&hits, &terms_of(method)?))?;
     spoil(&mut hits);
-    match pass(&room.exam.judge(&hits, &terms_of(method)?)) {
+    match pass(&room.judge.judge(&hits, &terms_of(method)?)) {
         Ok(()) => Err("the spoilt picture passed".into()),
         Err(_) => Ok(()),
     }
@@ -74,7 +74,7 @@ fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
 
     let mut renderer = renderer(METHOD)?;
     let picture = draw(gpu, renderer.as_mut(), &without, &room.view)?;
-    match pass(&room.exam.judge(&picture.hits, &terms_of(METHOD)?)) {
+    match pass(&room.judge.judge(&picture.hits, &terms_of(METHOD)?)) {
         Ok(()) => Err("the picture without a ball passed".into()),
         Err(_) => Ok(()),
     }
@@ -84,10 +84,10 @@ fn rejects_between_methods(gpu: &Gpu) -> Result<(), Failed> {
     let room = room(gpu, SCENE)?;
     let hits = picture(gpu, SCENE, &preset(METHOD)?)?;
     let promise = terms_of(METHOD)?.promise;
-    pass(&room.exam.compare((&hits, promise), (&hits, promise)))?;
+    pass(&room.judge.compare((&hits, promise), (&hits, promise)))?;
     let mut shifted = hits.to_vec();
     shifted.rotate_right(1);
-    match pass(&room.exam.compare((&hits, promise), (&shifted, promise))) {
+    match pass(&room.judge.compare((&hits, promise), (&shifted, promise))) {
         Ok(()) => Err("the shifted picture passed".into()),
         Err(_) => Ok(()),
     }

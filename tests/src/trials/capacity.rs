@@ -4,7 +4,7 @@
 use bench_scenes::{Overrides, load};
 use fbvh::{TraceOptions, Tracer, Tree};
 use glam::Vec3;
-use harness::judge::Exam;
+use harness::judge::Judge;
 use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{FrameStatus, Gpu};
@@ -42,8 +42,8 @@ fn dense_leaf(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let mut renderer = renderer(method)?;
     let picture = draw(gpu, renderer.as_mut(), &scene, &view)?;
     let oracle = Oracle::new(&scene);
-    let exam = Exam::new(&scene, &oracle, &picture.rays);
-    let findings = exam.judge(&picture.hits, &terms_of(method)?);
+    let judge = Judge::new(&scene, &oracle, &picture.rays);
+    let findings = judge.judge(&picture.hits, &terms_of(method)?);
     let judged = findings.measured + findings.excused;
     if judged < 50 {
         return Err(format!("needed 50 hits to judge, found {judged}").into());

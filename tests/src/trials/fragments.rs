@@ -1,7 +1,7 @@
 //! Fragment lists: that the terms for a cubic in the field's place still catch what is wrong, and what
 //! becomes of more separators than an array holds.
 
-use harness::judge::Exam;
+use harness::judge::Judge;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
@@ -40,9 +40,9 @@ pub(super) fn trials() -> Vec<Trial> {
 fn most_rays_are_promised(gpu: &Gpu) -> Result<(), Failed> {
     let room = room(gpu, SCENE)?;
     let promise = terms_of(METHOD)?.promise;
-    let rays = room.exam.rays().iter().zip(room.exam.truths());
+    let rays = room.judge.rays().iter().zip(room.judge.truths());
     let promised = rays.filter(|(ray, truth)| promise.holds(&room.scene.scene, ray, truth)).count();
-    let needed = room.exam.rays().len() * 8 / 10;
+    let needed = room.judge.rays().len() * 8 / 10;
     if promised < needed {
         return Err(format!("needed {needed} rays, found {promised}").into());
     }
@@ -57,8 +57,8 @@ fn crowd(gpu: &Gpu, method: &str, is_marked: bool) -> Result<(), Failed> {
     let mut renderer = renderer(method)?;
     let drawn = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
     let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &drawn.rays);
-    pass(&exam.judge(&drawn.hits, &terms_of(method)?))?;
+    let judge = Judge::new(&scene.scene, &oracle, &drawn.rays);
+    pass(&judge.judge(&drawn.hits, &terms_of(method)?))?;
     let marked = drawn.hits.iter().filter(|hit| hit.fallback).count();
     if (marked > 0) != is_marked {
         return Err(format!("{marked} pixels are marked").into());

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use harness::judge::Exam;
+use harness::judge::Judge;
 use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Verdict;
@@ -61,8 +61,8 @@ fn behind_a_wall(gpu: &Gpu, method: &str) -> Result<(), Failed> {
         return Err("the wall hid nothing: the test tests nothing".into());
     }
     let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &with.rays);
-    pass(&exam.judge(&with.hits, &terms_of(method)?))
+    let judge = Judge::new(&scene.scene, &oracle, &with.rays);
+    pass(&judge.judge(&with.hits, &terms_of(method)?))
 }
 
 /// The camera's stored axes err by half a unit in the last place each, so do the two products, the

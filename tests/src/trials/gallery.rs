@@ -5,8 +5,8 @@ use std::hash::Hash;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use bench_scenes::BenchScene;
-use harness::judge::Exam;
-use harness::settings::Setting;
+use harness::configuration::Configuration;
+use harness::judge::Judge;
 use libtest_mimic::Failed;
 use metaball_core::gpu::{Frame, Gpu, Targets};
 use metaball_core::reference::Oracle;
@@ -18,7 +18,7 @@ use super::{draw, load, view_of};
 pub(super) struct Room {
     pub(super) scene: &'static BenchScene,
     pub(super) view: View,
-    pub(super) exam: Exam<'static>,
+    pub(super) judge: Judge<'static>,
 }
 
 /// The room of a known scene.
@@ -33,7 +33,7 @@ pub(super) fn room(gpu: &Gpu, scene: &'static str) -> Result<Arc<Room>, Failed> 
         let targets = Targets::new(gpu, view.width(), view.height(), false, false)?;
         Frame::begin(gpu, &targets, &view)?.finish()?;
         let rays = Vec::leak(targets.read_rays(gpu, &view)?);
-        Ok(Room { scene, view, exam: Exam::new(&scene.scene, oracle, rays) })
+        Ok(Room { scene, view, judge: Judge::new(&scene.scene, oracle, rays) })
     })
 }
 
@@ -41,14 +41,14 @@ pub(super) fn room(gpu: &Gpu, scene: &'static str) -> Result<Arc<Room>, Failed> 
 pub(super) fn picture(
     gpu: &Gpu,
     scene: &'static str,
-    setting: &Setting,
+    configuration: &Configuration,
 ) -> Result<Arc<Vec<Hit>>, Failed> {
     static PICTURES: Shelf<(&'static str, String), Vec<Hit>> = Shelf::new();
     let room = room(gpu, scene)?;
-    PICTURES.get((scene, setting.name.clone()), || {
-        let mut renderer = setting.renderer(false);
+    PICTURES.get((scene, configuration.name.clone()), || {
+        let mut renderer = configuration.renderer(false);
         let picture = draw(gpu, renderer.as_mut(), &room.scene.scene, &room.view)?;
-        if picture.rays != room.exam.rays() {
+        if picture.rays != room.judge.rays() {
             return Err("two frames of one view have different rays".into());
         }
         Ok(picture.hits)

@@ -2,7 +2,7 @@
 //! section 6.
 
 use bench_scenes::Case;
-use harness::judge::{Exam, Ruling};
+use harness::judge::{Judge, Ruling};
 use kanamori_peel::{Options, Renderer};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
@@ -87,11 +87,11 @@ fn special_case(
     let mut renderer = renderer(method)?;
     let picture = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
     let oracle = Oracle::new(&scene.scene);
-    let exam = Exam::new(&scene.scene, &oracle, &picture.rays);
+    let judge = Judge::new(&scene.scene, &oracle, &picture.rays);
     let terms = terms_of(method)?;
-    pass(&exam.judge(&picture.hits, &terms))?;
+    pass(&judge.judge(&picture.hits, &terms))?;
     let is_excused =
-        |(ray, hit): &(usize, &Hit)| exam.rule(*ray, hit, &terms) == Ok(Ruling::Excused);
+        |(ray, hit): &(usize, &Hit)| judge.rule(*ray, hit, &terms) == Ok(Ruling::Excused);
     let excused = picture.hits.iter().enumerate().filter(is_excused);
     let (marked, silent): (Vec<_>, Vec<_>) = excused.partition(|(_, hit)| hit.fallback);
     let found = match (marked.len(), silent.len()) {

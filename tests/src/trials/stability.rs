@@ -5,20 +5,20 @@ use bench_scenes::cases;
 use experiments::stability::cell::{Cell, Outcome};
 use experiments::stability::limits::expected;
 use experiments::stability::stand::Stand;
-use harness::settings::Setting;
-use harness::settings::variants::entrants;
+use harness::configuration::Configuration;
+use harness::configuration::variants::stability_configurations;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 
 use super::{on_gpu, terms_of};
 
 pub(super) fn trials() -> Vec<Trial> {
-    let mut trials: Vec<_> = entrants()
+    let mut trials: Vec<_> = stability_configurations()
         .into_iter()
-        .filter(|entrant| entrant.options.is_empty())
-        .map(|entrant| {
-            let name = format!("stability::{}", entrant.name);
-            on_gpu(name, move |gpu| is_as_stated(gpu, &entrant))
+        .filter(|configuration| configuration.options.is_empty())
+        .map(|configuration| {
+            let name = format!("stability::{}", configuration.name);
+            on_gpu(name, move |gpu| is_as_stated(gpu, &configuration))
         })
         .collect();
     for (name, crowds) in CROWDED {
@@ -29,12 +29,12 @@ pub(super) fn trials() -> Vec<Trial> {
     trials
 }
 
-fn is_as_stated(gpu: &Gpu, entrant: &Setting) -> Result<(), Failed> {
-    let mut stand = Stand::new(gpu, [entrant.clone()]);
+fn is_as_stated(gpu: &Gpu, configuration: &Configuration) -> Result<(), Failed> {
+    let mut stand = Stand::new(gpu, [configuration.clone()]);
     let mut wrong = String::new();
     for case in cases() {
         for &value in case.quick {
-            let needed = expected(&entrant.name, case, value);
+            let needed = expected(&configuration.name, case, value);
             for found in stand.attempt(case, value, |_| None)? {
                 if found.outcome != needed {
                     wrong += &format!("\n  needed {needed:?}, found {found:?}");
@@ -56,8 +56,9 @@ const CROWDED: &[(&str, &[&str])] = &[
 
 /// At a case's largest value everything is as stated.
 fn is_as_stated_in_the_largest(gpu: &Gpu, name: &str, crowds: &[&str]) -> Result<(), Failed> {
-    let entrant = entrants().into_iter().find(|entrant| entrant.name == name);
-    let mut stand = Stand::new(gpu, [entrant.ok_or("no such entrant")?]);
+    let configuration =
+        stability_configurations().into_iter().find(|configuration| configuration.name == name);
+    let mut stand = Stand::new(gpu, [configuration.ok_or("no such configuration")?]);
     for case in cases().iter().filter(|case| crowds.contains(&case.name)) {
         let most = *case.values.last().ok_or("a case without values")?;
         let needed = expected(name, case, most);
@@ -72,8 +73,10 @@ fn is_as_stated_in_the_largest(gpu: &Gpu, name: &str, crowds: &[&str]) -> Result
 
 /// Depth peeling as published, held to the promise of its variant, is caught where points coincide.
 fn notices_a_broken_promise(gpu: &Gpu) -> Result<(), Failed> {
-    let find = |name: &str| entrants().into_iter().find(|entrant| entrant.name == name);
-    let published = find("kanamori").ok_or("no entrant is called kanamori")?;
+    let find = |name: &str| {
+        stability_configurations().into_iter().find(|configuration| configuration.name == name)
+    };
+    let published = find("kanamori").ok_or("no configuration is called kanamori")?;
     let case = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
     let outcome = |terms| -> Result<Vec<Outcome>, Failed> {
         let stand = &mut Stand::holding(gpu, [(published.clone(), terms)]);

@@ -26,9 +26,9 @@ fn hit_for_hit(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(
     let options = tree_options(method)?;
     let tree = Tree::build(&room.scene.scene, &options)?;
     let tracer = Tracer::new(&tree, &room.scene.scene, TraceOptions::DEFAULT);
-    let hits = tracer.first_hits(room.exam.rays());
-    pass(&room.exam.judge(&hits, &terms_of(method)?))?;
+    let hits = tracer.first_hits(room.judge.rays());
+    pass(&room.judge.judge(&hits, &terms_of(method)?))?;
     let promise = terms_of(method)?.promise;
     let picture = picture(gpu, scene, &preset(method)?)?;
-    pass(&room.exam.compare((&hits, promise), (&picture, promise)))
+    pass(&room.judge.compare((&hits, promise), (&picture, promise)))
 }

@@ -5,8 +5,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Chart;
+use harness::configuration::label;
 use harness::record::{Record, Samples};
-use harness::settings::label;
 
 /// How the times of two runs compare.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,7 +24,7 @@ pub struct Move {
     /// The scene.
     pub scene: String,
     /// The method, with its options.
-    pub setting: String,
+    pub configuration: String,
     /// Median of the earlier run, milliseconds.
     pub before_ms: f64,
     /// Median of the later run, milliseconds.
@@ -52,7 +52,7 @@ impl Moved {
                     if is_moved(&then.frame_ms, &now.frame_ms) {
                         compared.moved.push(Move {
                             scene: record.scene.clone(),
-                            setting: label(&record.method, &record.options),
+                            configuration: label(&record.method, &record.options),
                             before_ms: then.frame_ms.median,
                             after_ms: now.frame_ms.median,
                         });

@@ -11,11 +11,11 @@ use crate::conclusions::conclusions;
 use crate::html::escape;
 use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
 use crate::plot::{Axis, Kind, Look, Mark, Plot, Scale, Series};
+use harness::configuration::label;
 use harness::machine::has_little_raster;
 use harness::methods::{find, methods};
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Measured, Record};
-use harness::settings::label;
 use harness::stats::exponent;
 
 /// The page.
@@ -29,7 +29,7 @@ pub(super) fn page(chart: &Chart) -> String {
     if let Some(moved) = &chart.moved {
         remarks.push(moved.to_string());
     }
-    let sentences = conclusion_paragraphs(&conclusions(&chart.contests()));
+    let sentences = conclusion_paragraphs(&conclusions(&chart.error_records()));
     let errors = of(chart, &Purpose::Error).map(error_section).collect();
     let parts = [
         ("conclusions", sentences),
@@ -86,7 +86,7 @@ fn error_section(group: &Group) -> String {
     )
 }
 
-/// All settings of a scene, joined along each option.
+/// All configurations of a scene, joined along each option.
 fn error_plot(group: &Group, quantity: &str, error: Quantity) -> String {
     let mut series = Vec::new();
     for (index, method) in methods().iter().enumerate() {
@@ -176,9 +176,10 @@ fn missing(groups: &[&Group]) -> String {
             by_reason.entry(reason).or_default().insert(label(&record.method, &record.options));
         }
     }
-    let line = |(reason, settings): (&String, &BTreeSet<String>)| {
-        let settings = settings.iter().map(String::as_str).collect::<Vec<_>>().join("; ");
-        format!("<li>✕ {} – {}</li>\n", escape(&settings), escape(reason))
+    let line = |(reason, configurations): (&String, &BTreeSet<String>)| {
+        let configurations =
+            configurations.iter().map(String::as_str).collect::<Vec<_>>().join("; ");
+        format!("<li>✕ {} – {}</li>\n", escape(&configurations), escape(reason))
     };
     let lines: String = by_reason.iter().map(line).collect();
     if lines.is_empty() { lines } else { format!("<ul>\n{lines}</ul>\n") }
@@ -343,7 +344,7 @@ fn claim_section(chart: &Chart) -> String {
     section("A claim put to the test", &body)
 }
 
-/// The quickest of `auto`'s candidates beside the quickest of all settings.
+/// The quickest of `auto`'s candidates beside the quickest of all configurations.
 fn shortlist_section(chart: &Chart) -> String {
     let rows = shortlist::rows(&chart.groups);
     let name = |record: &Record| escape(&label(&record.method, &record.options));
@@ -367,7 +368,7 @@ fn shortlist_section(chart: &Chart) -> String {
     let lines: String = rows.iter().map(line).collect();
     let body = format!(
         "<p>The method <code>auto</code> chooses from a short list. Here is the quickest on that list \
-         beside the quickest of all settings above, both with 99 of 100 hits within the error and at \
+         beside the quickest of all configurations above, both with 99 of 100 hits within the error and at \
          most one wrong or open verdict in 100,000 rays, by the records of this chart.</p>\n<div \
          class=\"scroll\"><table><thead><tr><th class=\"text\">Scene</th><th>Error<small>|Δt|/R</small>\
          </th><th class=\"text\">Listed</th><th>ms</th><th class=\"text\">Of all</th><th>ms</th>\

@@ -1,9 +1,9 @@
-//! What a chart measures: which scenes, for what, with which settings.
+//! What a chart measures: which scenes, for what, with which configurations.
 
 use serde::{Deserialize, Serialize};
 
 use crate::compare::DEFAULT_SCENES;
-use harness::settings::{Setting, sweeps};
+use harness::configuration::{Configuration, sweeps};
 
 /// How much to measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Planned {
     /// What to load.
     pub spec: String,
     /// Who takes part.
-    pub settings: Vec<Setting>,
+    pub configurations: Vec<Configuration>,
 }
 
 /// Whom growth and density are measured of: the published families, and what is faster.
@@ -56,8 +56,8 @@ pub fn plan(extent: Extent, scenes: &[String]) -> Vec<Planned> {
         Extent::Quick => (&["random-200"], &[100, 300], 200, &[5, 10]),
     };
     let errors = match extent {
-        Extent::Whole => sweeps::settings(),
-        Extent::Quick => sweeps::quick_settings(),
+        Extent::Whole => sweeps::configurations(),
+        Extent::Quick => sweeps::quick_configurations(),
     };
     let presets = sweeps::presets(CONTESTANTS);
     let scenes: Vec<_> = match scenes {
@@ -67,20 +67,20 @@ pub fn plan(extent: Extent, scenes: &[String]) -> Vec<Planned> {
     let errors = scenes.into_iter().map(|spec| Planned {
         purpose: Purpose::Error,
         spec,
-        settings: errors.clone(),
+        configurations: errors.clone(),
     });
     let growth = ["scattered", "tornado"].into_iter().flat_map(|family| {
         let presets = &presets;
         counts.iter().map(move |count| Planned {
             purpose: Purpose::Growth(family.to_owned()),
             spec: format!("{family}:{count}"),
-            settings: presets.clone(),
+            configurations: presets.clone(),
         })
     });
     let density = densities.iter().map(|density| Planned {
         purpose: Purpose::Density,
         spec: format!("scattered:{count}:{density}"),
-        settings: presets.clone(),
+        configurations: presets.clone(),
     });
     errors.chain(growth).chain(density).collect()
 }
@@ -100,7 +100,7 @@ mod tests {
                     (&other.spec, &other.purpose) == (&planned.spec, &planned.purpose)
                 };
                 assert_eq!(plan.iter().filter(same).count(), 1, "{}", planned.spec);
-                assert!(!planned.settings.is_empty());
+                assert!(!planned.configurations.is_empty());
                 if extent == Extent::Quick {
                     load(&planned.spec, &Overrides::default()).expect("loads");
                 }

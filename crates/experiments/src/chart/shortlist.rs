@@ -1,11 +1,11 @@
 //! What the short list of `auto` costs: the quickest of its candidates against the quickest of all
-//! settings that were measured.
+//! configurations that were measured.
 
 use super::Group;
 use super::plan::Purpose;
 use harness::auto::choice::Errors;
+use harness::configuration::{label, sweeps};
 use harness::record::{Measured, Record};
-use harness::settings::{label, sweeps};
 
 /// A scene and an error, with the two that keep it.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,7 @@ pub(super) struct Row<'a> {
     pub(super) max_error: f64,
     /// The quickest of `auto`'s candidates; `None` where none is right enough.
     pub(super) listed: Option<(&'a Record, f64)>,
-    /// The quickest of all settings, and its milliseconds.
+    /// The quickest of all configurations, and its milliseconds.
     pub(super) best: (&'a Record, f64),
 }
 
@@ -28,10 +28,11 @@ impl Row<'_> {
 /// Errors that are asked for: the default of `auto`, and one that cubics may keep.
 const ERRORS: [f64; 2] = [harness::auto::MAX_ERROR, 0.05];
 
-/// Every scene of the charts of error, for each error that any setting keeps there. R is the chart's:
+/// Every scene of the charts of error, for each error that any configuration keeps there. R is the chart's:
 /// the smallest support radius at the hit.
 pub(super) fn rows(groups: &[Group]) -> Vec<Row<'_>> {
-    let candidates: Vec<_> = sweeps::candidates().into_iter().map(|setting| setting.name).collect();
+    let candidates: Vec<_> =
+        sweeps::candidates().into_iter().map(|configuration| configuration.name).collect();
     let is_listed = |record: &Record| candidates.contains(&label(&record.method, &record.options));
     let of_errors = groups.iter().filter(|group| group.purpose == Purpose::Error);
     let row = |group, max_error| {

@@ -4,7 +4,7 @@ use metaball_core::reference::Truth;
 use metaball_core::{Hit, Verdict};
 use serde::{Deserialize, Serialize};
 
-use harness::judge::{Exam, Ruling, Terms};
+use harness::judge::{Judge, Ruling, Terms};
 use harness::score::{Finding, Judgement, RadiusError};
 use harness::stats::{quantile, sorted};
 
@@ -52,7 +52,7 @@ pub struct Cell {
     pub case: String,
     /// Value of its parameter.
     pub value: f64,
-    /// Name of the entrant.
+    /// Name of the configuration.
     pub method: String,
     /// What became of it.
     pub outcome: Outcome,
@@ -81,11 +81,11 @@ pub struct Cell {
 
 impl Cell {
     /// A method that draws nothing and says why.
-    pub(super) fn refused(case: &str, value: f64, entrant: &str, reason: String) -> Self {
+    pub(super) fn refused(case: &str, value: f64, configuration: &str, reason: String) -> Self {
         Self {
             case: case.to_owned(),
             value,
-            method: entrant.to_owned(),
+            method: configuration.to_owned(),
             outcome: Outcome::Told,
             seconds: 0.0,
             clear: 0,
@@ -100,16 +100,16 @@ impl Cell {
     }
 
     /// A method that is not run, and why.
-    pub(super) fn untried(case: &str, value: f64, entrant: &str, reason: String) -> Self {
-        Self { outcome: Outcome::Untried, ..Self::refused(case, value, entrant, reason) }
+    pub(super) fn untried(case: &str, value: f64, configuration: &str, reason: String) -> Self {
+        Self { outcome: Outcome::Untried, ..Self::refused(case, value, configuration, reason) }
     }
 
     /// Judges a picture. `differing` counts pixels that are not as in the frame drawn before;
     /// `must_repeat` says that there may be none.
     pub(super) fn judged(
         (case, value): (&str, f64),
-        (entrant, terms): (&str, &Terms),
-        (exam, hits): (&Exam<'_>, &[Hit]),
+        (configuration, terms): (&str, &Terms),
+        (judge, hits): (&Judge<'_>, &[Hit]),
         differing: Option<usize>,
         must_repeat: bool,
     ) -> Self {
@@ -117,11 +117,11 @@ impl Cell {
             note: None,
             outcome: Outcome::Right,
             differing,
-            ..Self::refused(case, value, entrant, String::new())
+            ..Self::refused(case, value, configuration, String::new())
         };
         let mut errors = Vec::new();
-        for (ray, (truth, hit)) in exam.truths().iter().zip(hits).enumerate() {
-            cell.count((exam, ray), (truth, hit), terms, &mut errors);
+        for (ray, (truth, hit)) in judge.truths().iter().zip(hits).enumerate() {
+            cell.count((judge, ray), (truth, hit), terms, &mut errors);
         }
         let errors = sorted(errors);
         cell.error = quantile(&errors, 1.0).map(|max| RadiusError {
@@ -150,7 +150,7 @@ impl Cell {
 
     fn count(
         &mut self,
-        (exam, ray): (&Exam<'_>, usize),
+        (judge, ray): (&Judge<'_>, usize),
         (truth, hit): (&Truth, &Hit),
         terms: &Terms,
         errors: &mut Vec<f64>,
@@ -165,7 +165,7 @@ impl Cell {
             return;
         }
         let judgement = Judgement::new(truth, hit);
-        match exam.rule(ray, hit, terms) {
+        match judge.rule(ray, hit, terms) {
             Err(violation) => {
                 self.broken += 1;
                 self.note.get_or_insert(violation);

@@ -41,7 +41,7 @@ const CUBICS: &[Limit] = &[
     ("shuffled", &[(20.0, Lost)]),
 ];
 
-/// The limits of each entrant, by case. An outcome goes on to the end of the case's values or to the
+/// The limits of each configuration, by case. An outcome goes on to the end of the case's values or to the
 /// next outcome; what is not listed is right. Measured on a software adapter.
 const LIMITS: &[(&str, &[Limit])] = &[
     // Section 7: points that coincide are lost, and more balls than a list of 14 holds are drawn as
@@ -176,7 +176,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
     ("illes-compute", CUBICS),
 ];
 
-/// What is expected of an entrant at one of the case's values.
+/// What is expected of a configuration at one of the case's values.
 pub fn expected(method: &str, case: &Case, value: f64) -> Outcome {
     let place = |value: f64| case.values.iter().position(|&known| known == value);
     let of_method = LIMITS.iter().filter(|(name, _)| *name == method);
@@ -192,12 +192,17 @@ mod tests {
     use bench_scenes::cases;
 
     use super::*;
-    use harness::settings::variants::entrants;
+    use harness::configuration::variants::stability_configurations;
 
     #[test]
     fn every_limit_is_of_an_entrant_and_at_values_of_a_case() {
         for (method, limits) in LIMITS {
-            assert!(entrants().iter().any(|entrant| entrant.name == *method), "{method}");
+            assert!(
+                stability_configurations()
+                    .iter()
+                    .any(|configuration| configuration.name == *method),
+                "{method}"
+            );
             for (name, steps) in *limits {
                 let case = cases().iter().find(|case| case.name == *name);
                 let values = case.unwrap_or_else(|| panic!("{method}: no case {name}")).values;
@@ -216,6 +221,6 @@ mod tests {
         let case = cases().iter().find(|case| case.name == "overlapping").expect("known");
         let at = |value| expected("kanamori", case, value);
         assert_eq!([at(14.0), at(15.0), at(140.0)], [Right, Told, Told]);
-        assert_eq!(expected("no such entrant", case, 4096.0), Right);
+        assert_eq!(expected("no such configuration", case, 4096.0), Right);
     }
 }

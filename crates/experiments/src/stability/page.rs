@@ -9,17 +9,22 @@ use super::patience::PATIENCE_S;
 use super::record::{Limit, Stability};
 use crate::html::escape;
 use crate::page::{self, remark_paragraphs, run_facts};
+use harness::configuration::Configuration;
 use harness::numbers::small;
-use harness::settings::Setting;
 
 /// The page; needs no other file and no network.
-pub(super) fn page(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
-    let sections: String = cases.iter().map(|case| section(stability, case, entrants)).collect();
+pub(super) fn page(
+    stability: &Stability,
+    cases: &[&Case],
+    configurations: &[Configuration],
+) -> String {
+    let sections: String =
+        cases.iter().map(|case| section(stability, case, configurations)).collect();
     let parts = [
         ("facts", run_facts(&stability.provenance, Some(&stability.adapter))),
         ("remarks", remark_paragraphs(&remarks(stability))),
         ("legend", legend()),
-        ("matrix", matrix(stability, cases, entrants)),
+        ("matrix", matrix(stability, cases, configurations)),
         ("cases", sections),
         ("notes", notes(stability)),
     ];
@@ -77,54 +82,57 @@ fn legend() -> String {
     format!("<ul class=\"key-list\">\n{items}</ul>\n")
 }
 
-fn matrix(stability: &Stability, cases: &[&Case], entrants: &[Setting]) -> String {
+fn matrix(stability: &Stability, cases: &[&Case], configurations: &[Configuration]) -> String {
     let mut rows = String::new();
     let mut category = None;
     for case in cases {
         if category != Some(case.category) {
             category = Some(case.category);
-            let columns = entrants.len() + 1;
+            let columns = configurations.len() + 1;
             let title = case.category.title();
             let _ =
                 writeln!(rows, "<tr><th class=\"subject\" colspan=\"{columns}\">{title}</th></tr>");
         }
-        let cells: String =
-            entrants.iter().map(|entrant| limit_cell(stability, case, entrant)).collect();
+        let cells: String = configurations
+            .iter()
+            .map(|configuration| limit_cell(stability, case, configuration))
+            .collect();
         let (name, parameter) = (case.name, escape(case.parameter));
         let _ = writeln!(
             rows,
             "<tr><th><a href=\"#{name}\">{name}</a><small>{parameter}</small></th>{cells}</tr>"
         );
     }
-    let counts: String = entrants.iter().map(|entrant| held(stability, entrant)).collect();
+    let counts: String =
+        configurations.iter().map(|configuration| held(stability, configuration)).collect();
     format!(
         "<div class=\"scroll\"><table class=\"matrix\">\n<thead><tr><th>Case</th>{}</tr></thead>\n\
          <tbody>\n{rows}</tbody>\n<tfoot><tr><th>right at all values</th>{counts}</tr></tfoot>\n\
          </table></div>\n",
-        headings(entrants)
+        headings(configurations)
     )
 }
 
-fn headings(entrants: &[Setting]) -> String {
-    let heading = |entrant: &Setting| {
-        let class = if entrant.name.contains('+') { " class=\"option\"" } else { "" };
-        format!("<th{class} title=\"{}\">{}</th>", entrant.name, escape(&entrant.title))
+fn headings(configurations: &[Configuration]) -> String {
+    let heading = |configuration: &Configuration| {
+        let class = if configuration.name.contains('+') { " class=\"option\"" } else { "" };
+        format!("<th{class} title=\"{}\">{}</th>", configuration.name, escape(&configuration.title))
     };
-    entrants.iter().map(heading).collect()
+    configurations.iter().map(heading).collect()
 }
 
 /// In how many cases a method is right throughout.
-fn held(stability: &Stability, entrant: &Setting) -> String {
-    let of = stability.limits.iter().filter(|limit| limit.method == entrant.name);
+fn held(stability: &Stability, configuration: &Configuration) -> String {
+    let of = stability.limits.iter().filter(|limit| limit.method == configuration.name);
     let held = of.clone().filter(|limit| limit.fails_at.is_none()).count();
     format!("<td>{held} of {}</td>", of.count())
 }
 
-fn limit_cell(stability: &Stability, case: &Case, entrant: &Setting) -> String {
-    let Some(limit) = stability.limit(case.name, &entrant.name) else {
+fn limit_cell(stability: &Stability, case: &Case, configuration: &Configuration) -> String {
+    let Some(limit) = stability.limit(case.name, &configuration.name) else {
         return "<td></td>".to_owned();
     };
-    let squares = stability.of(case.name, &entrant.name).map(|cell| {
+    let squares = stability.of(case.name, &configuration.name).map(|cell| {
         let is_unexpected = limit.unexpected.contains(&cell.value);
         (cell.outcome, title(cell), is_unexpected)
     });
@@ -208,14 +216,14 @@ fn title(cell: &Cell) -> String {
 }
 
 /// A case with every number.
-fn section(stability: &Stability, case: &Case, entrants: &[Setting]) -> String {
-    let Some(first) = entrants.first() else { return String::new() };
+fn section(stability: &Stability, case: &Case, configurations: &[Configuration]) -> String {
+    let Some(first) = configurations.first() else { return String::new() };
     let row = |of_first: &Cell| {
-        let cells: String = entrants
+        let cells: String = configurations
             .iter()
-            .map(|entrant| {
-                let mut of_entrant = stability.of(case.name, &entrant.name);
-                of_entrant
+            .map(|configuration| {
+                let mut of_configuration = stability.of(case.name, &configuration.name);
+                of_configuration
                     .find(|cell| cell.value == of_first.value)
                     .map_or_else(|| "<td></td>".to_owned(), value_cell)
             })
@@ -237,7 +245,7 @@ fn section(stability: &Stability, case: &Case, entrants: &[Setting]) -> String {
          {parameter}.</p>\n<div class=\"scroll\"><table class=\"values\">\n<thead><tr><th>Value</th>\
          <th>Rays<small>clear + too close</small></th>{}</tr></thead>\n<tbody>\n{rows}</tbody>\n\
          </table></div></section>\n",
-        headings(entrants)
+        headings(configurations)
     )
 }
 

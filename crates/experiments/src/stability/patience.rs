@@ -3,38 +3,40 @@
 
 use super::cell::{Cell, Outcome};
 use super::page::tick;
+use harness::configuration::Configuration;
 use harness::judge::Terms;
 use harness::judge::promise::Promise;
-use harness::settings::Setting;
 
 /// Seconds after which a method rests. Twice as many balls over one point cost a published method some
 /// eight times as much: its next value takes a minute or two.
 pub(super) const PATIENCE_S: f64 = 10.0;
 
-/// Why an entrant is not run at the next value of a case, by the cells of the easier ones. A method
+/// Why a configuration is not run at the next value of a case, by the cells of the easier ones. A method
 /// that promises to be right everywhere always is: only so is it known where its limits are.
 pub(super) fn rests<'a>(
     easier: impl Iterator<Item = &'a Cell>,
-    entrant: &Setting,
+    configuration: &Configuration,
 ) -> Option<String> {
-    if Terms::of(&entrant.technique).promise == Promise::Always {
+    if Terms::of(&configuration.technique).promise == Promise::Always {
         return None;
     }
-    let mut of_entrant = easier.filter(|cell| cell.method == entrant.name);
-    let tiring =
-        of_entrant.find(|cell| cell.outcome != Outcome::Untried && cell.seconds > PATIENCE_S)?;
+    let mut of_configuration = easier.filter(|cell| cell.method == configuration.name);
+    let tiring = of_configuration
+        .find(|cell| cell.outcome != Outcome::Untried && cell.seconds > PATIENCE_S)?;
     Some(format!("not run: took {:.0} s at {}", tiring.seconds, tick(tiring.value)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use harness::settings::variants::entrants;
+    use harness::configuration::variants::stability_configurations;
 
     #[test]
     fn only_the_slow_rest_and_none_that_promises_everything() {
-        let all = entrants();
-        let find = |name: &str| all.iter().find(|entrant| entrant.name == name).expect("known");
+        let all = stability_configurations();
+        let find = |name: &str| {
+            all.iter().find(|configuration| configuration.name == name).expect("known")
+        };
         for (name, seconds, is_tired) in [
             ("kanamori", 2.0 * PATIENCE_S, true),
             ("kanamori", 0.5 * PATIENCE_S, false),

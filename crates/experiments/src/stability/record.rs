@@ -36,7 +36,7 @@ pub struct Limit {
     pub case: String,
     /// What its number means.
     pub parameter: String,
-    /// Name of the entrant.
+    /// Name of the configuration.
     pub method: String,
     /// The last value up to which every one is right; `None`: not even the first is.
     pub holds_to: Option<f64>,

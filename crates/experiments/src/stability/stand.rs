@@ -8,8 +8,8 @@ use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Scene, View};
 
 use super::cell::Cell;
-use harness::judge::{Exam, Terms};
-use harness::settings::Setting;
+use harness::configuration::Configuration;
+use harness::judge::{Judge, Terms};
 
 /// Rays of a picture that are judged at most, spread evenly.
 const MOST_RAYS: usize = 900;
@@ -22,12 +22,12 @@ const ROOMY: usize = 100;
 pub struct Stand<'a> {
     gpu: &'a Gpu,
     targets: Option<Targets>,
-    entrants: Vec<Entrant>,
+    configurations: Vec<Entrant>,
 }
 
-/// A setting, what it is held to, and its renderer.
+/// A configuration, what it is held to, and its renderer.
 struct Entrant {
-    setting: Setting,
+    configuration: Configuration,
     terms: Terms,
     renderer: Box<dyn IsoRenderer>,
     /// Whether its shaders are composed and compiled, which is no part of what a value takes.
@@ -35,25 +35,32 @@ struct Entrant {
 }
 
 impl<'a> Stand<'a> {
-    /// For settings that are held to what they promise. Nothing is made yet on the device.
-    pub fn new(gpu: &'a Gpu, settings: impl IntoIterator<Item = Setting>) -> Self {
-        let with_terms = |setting: Setting| {
-            let terms = Terms::of(&setting.technique);
-            (setting, terms)
+    /// For configurations that are held to what they promise. Nothing is made yet on the device.
+    pub fn new(gpu: &'a Gpu, configurations: impl IntoIterator<Item = Configuration>) -> Self {
+        let with_terms = |configuration: Configuration| {
+            let terms = Terms::of(&configuration.technique);
+            (configuration, terms)
         };
-        Self::holding(gpu, settings.into_iter().map(with_terms))
+        Self::holding(gpu, configurations.into_iter().map(with_terms))
     }
 
-    /// For settings that are held to other terms than their own.
-    pub fn holding(gpu: &'a Gpu, settings: impl IntoIterator<Item = (Setting, Terms)>) -> Self {
-        let entrant = |(setting, terms): (Setting, Terms)| {
-            let renderer = setting.renderer(false);
-            Entrant { setting, terms, renderer, is_warm: false }
+    /// For configurations that are held to other terms than their own.
+    pub fn holding(
+        gpu: &'a Gpu,
+        configurations: impl IntoIterator<Item = (Configuration, Terms)>,
+    ) -> Self {
+        let configuration = |(configuration, terms): (Configuration, Terms)| {
+            let renderer = configuration.renderer(false);
+            Entrant { configuration, terms, renderer, is_warm: false }
         };
-        Self { gpu, targets: None, entrants: settings.into_iter().map(entrant).collect() }
+        Self {
+            gpu,
+            targets: None,
+            configurations: configurations.into_iter().map(configuration).collect(),
+        }
     }
 
-    /// Tries every entrant at a value of a case, each against the same truth; but one for which
+    /// Tries every configuration at a value of a case, each against the same truth; but one for which
     /// `rests` has a reason is not run.
     ///
     /// # Errors
@@ -62,7 +69,7 @@ impl<'a> Stand<'a> {
         &mut self,
         case: &Case,
         value: f64,
-        rests: impl Fn(&Setting) -> Option<String>,
+        rests: impl Fn(&Configuration) -> Option<String>,
     ) -> anyhow::Result<Vec<Cell>> {
         let (bench, view) = case.view(value)?;
         let other = match case.redraw {
@@ -78,12 +85,12 @@ impl<'a> Stand<'a> {
         let pixels = judged_pixels(view.pixels());
         let rays = pick(&targets.read_rays(self.gpu, &view)?, &pixels);
         let oracle = Oracle::new(&bench.scene);
-        let exam = Exam::new(&bench.scene, &oracle, &rays);
+        let judge = Judge::new(&bench.scene, &oracle, &rays);
 
         let mut cells = Vec::new();
-        for Entrant { setting, terms, renderer, is_warm } in &mut self.entrants {
-            if let Some(reason) = rests(setting) {
-                cells.push(Cell::untried(case.name, value, &setting.name, reason));
+        for Entrant { configuration, terms, renderer, is_warm } in &mut self.configurations {
+            if let Some(reason) = rests(configuration) {
+                cells.push(Cell::untried(case.name, value, &configuration.name, reason));
                 continue;
             }
             let mut draw =
@@ -104,19 +111,25 @@ impl<'a> Stand<'a> {
             let place = (case.name, value);
             let cell = match drawn {
                 Ok((hits, differing)) => {
-                    let picture = (&exam, pick(&hits, &pixels));
+                    let picture = (&judge, pick(&hits, &pixels));
                     let must_repeat = case.redraw == Some(Redraw::Same);
                     let judged = (picture.0, &picture.1[..]);
-                    Cell::judged(place, (&setting.name, terms), judged, differing, must_repeat)
+                    Cell::judged(
+                        place,
+                        (&configuration.name, terms),
+                        judged,
+                        differing,
+                        must_repeat,
+                    )
                 }
                 Err(error) if is_refusal(&error) => {
-                    Cell::refused(case.name, value, &setting.name, error.to_string())
+                    Cell::refused(case.name, value, &configuration.name, error.to_string())
                 }
                 Err(error) => return Err(error.into()),
             };
             cells.push(Cell { seconds, ..cell });
             if bench.scene.len() > ROOMY {
-                *renderer = setting.renderer(false);
+                *renderer = configuration.renderer(false);
             }
         }
         self.targets = Some(targets);

@@ -11,12 +11,12 @@ use self::study::{Outcome, Study, Verdict};
 use crate::console::{self, ProgressBar};
 use crate::tables::{Extent, Order, named_or};
 use harness::auto::MAX_ERROR;
+use harness::configuration::Configuration;
+use harness::configuration::sweeps::candidates;
 use harness::machine::Provenance;
 use harness::numbers::{decimal, grouped, small};
 use harness::output::write_json;
 use harness::record::Adapter;
-use harness::settings::Setting;
-use harness::settings::sweeps::candidates;
 use picture_files::write_atomically;
 
 /// Name and version of the format of `auto.json`.
@@ -49,10 +49,11 @@ fn studies(order: &Order, scenes: &[String]) -> Vec<Study> {
 }
 
 /// Who can be chosen.
-fn settings(extent: Extent) -> Vec<Setting> {
+fn configurations(extent: Extent) -> Vec<Configuration> {
     const FEW: [&str; 4] = ["fbvh-certified", "illes", "illes, array 24", "illes-exact"];
-    let takes_part =
-        |setting: &Setting| extent == Extent::Whole || FEW.contains(&setting.name.as_str());
+    let takes_part = |configuration: &Configuration| {
+        extent == Extent::Whole || FEW.contains(&configuration.name.as_str())
+    };
     candidates().into_iter().filter(takes_part).collect()
 }
 
@@ -78,7 +79,7 @@ pub struct Measurements {
 pub fn tables(order: &Order, scenes: &[String]) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, &studies(order, scenes), &settings(order.extent));
+    let measurements = measure(&gpu, &studies(order, scenes), &configurations(order.extent));
     console::line(&console::table(&HEADINGS, &rows(&measurements.scenes)));
     for remark in &measurements.remarks {
         console::line(remark);
@@ -92,10 +93,10 @@ pub fn tables(order: &Order, scenes: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn measure(gpu: &Gpu, studies: &[Study], settings: &[Setting]) -> Measurements {
-    let progress = ProgressBar::new(studies.iter().map(|study| study.steps(settings)).sum());
+fn measure(gpu: &Gpu, studies: &[Study], configurations: &[Configuration]) -> Measurements {
+    let progress = ProgressBar::new(studies.iter().map(|study| study.steps(configurations)).sum());
     let outcome = |study: &Study| {
-        let result = study.make(gpu, settings, &progress);
+        let result = study.make(gpu, configurations, &progress);
         Outcome {
             scene: study.spec.clone(),
             size: study.size,
@@ -163,7 +164,7 @@ fn rows(scenes: &[Outcome]) -> Vec<Vec<String>> {
 fn row(scene: &str, verdict: &Verdict) -> Vec<String> {
     let ms = |ms: Option<f64>| ms.map_or_else(|| "–".to_owned(), decimal);
     let chosen = match &verdict.choice {
-        Ok(choice) => choice.setting.clone(),
+        Ok(choice) => choice.configuration.clone(),
         Err(_) => "nobody".to_owned(),
     };
     let drawn = verdict.drawn.as_ref();
@@ -203,8 +204,8 @@ mod tests {
             study.load().expect("loads");
         }
         assert!(studies(&order(Extent::Whole), &[]).len() >= 6);
-        assert_eq!(settings(Extent::Whole).len(), candidates().len());
-        assert_eq!(settings(Extent::Quick).len(), 4);
+        assert_eq!(configurations(Extent::Whole).len(), candidates().len());
+        assert_eq!(configurations(Extent::Quick).len(), 4);
     }
 
     #[test]
@@ -212,7 +213,7 @@ mod tests {
         let Some(gpu) = Gpu::for_test() else { return };
         let scenes = ["random-200", "nowhere.toml"].map(str::to_owned);
         let studies = studies(&order(Extent::Quick), &scenes);
-        let measurements = measure(&gpu, &studies, &settings(Extent::Quick));
+        let measurements = measure(&gpu, &studies, &configurations(Extent::Quick));
         let [studied, missing] = &measurements.scenes[..] else { panic!("two scenes") };
         assert!(missing.result.is_err());
         let measured = studied.result.as_ref().expect("measured");

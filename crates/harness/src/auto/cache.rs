@@ -146,7 +146,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let cache = Cache::at(folder.path().to_owned());
         let choice = Choice {
-            setting: "fbvh".to_owned(),
+            configuration: "fbvh".to_owned(),
             max_error: 0.5,
             errors: Errors { rays: 8, wrong: 0, p99: 0.25 },
             frame_ms: 2.0,

@@ -6,11 +6,11 @@ use metaball_core::gpu::{Gpu, RenderError};
 use metaball_core::reference::Oracle;
 use metaball_core::{Scene, View};
 
-use super::choice::{Candidate, Choice, Errors, Outcome, Sketch, Trial, choose};
-use super::stage::Stage;
-use crate::measure::{Contender, Sampling, Timing, time_all, views};
+use super::choice::{Candidate, Choice, Errors, Measure, Measurement, choose};
+use super::reference_view::ReferenceView;
+use crate::configuration::Configuration;
+use crate::measure::{PreparedRenderer, Sampling, Timing, time_all, views};
 use crate::numbers::small;
-use crate::settings::Setting;
 
 /// Pixels across of sparse pictures; as many down as the view's shape asks for.
 const SPARSE_WIDTH: u32 = 96;
@@ -33,7 +33,7 @@ pub fn calibrate(
     gpu: &Gpu,
     scene: &Scene,
     view: &View,
-    settings: &[Setting],
+    configurations: &[Configuration],
     max_error: f64,
 ) -> Result<Choice, RenderError> {
     let oracle = Oracle::new(scene);
@@ -43,15 +43,15 @@ pub fn calibrate(
     let mut calibration = Calibration {
         gpu,
         scene,
-        settings,
+        configurations,
         max_error,
-        sparse: Stage::new(gpu, scene, &oracle, sparse_view, usize::MAX)?,
+        sparse: ReferenceView::new(gpu, scene, &oracle, sparse_view, usize::MAX)?,
         sparse_views: &sparse_views,
-        whole: Stage::new(gpu, scene, &oracle, view, HELD_OUT_RAYS)?,
+        whole: ReferenceView::new(gpu, scene, &oracle, view, HELD_OUT_RAYS)?,
         whole_views: nearby(scene, view, (view.width(), view.height()), WHOLE)?,
-        contenders: settings.iter().map(|_| None).collect(),
+        renderers: configurations.iter().map(|_| None).collect(),
     };
-    choose(&entries(settings), max_error, &mut calibration).map_err(|left_out| {
+    choose(&entries(configurations), max_error, &mut calibration).map_err(|left_out| {
         let reasons: Vec<_> =
             left_out.iter().map(|(name, reason)| format!("{name}: {reason}")).collect();
         let needed = small(max_error);
@@ -63,17 +63,20 @@ pub fn calibrate(
     })
 }
 
-/// Settings as there are to choose: one with an option turned is a crude version of its method's
+/// Configurations as there are to choose: one with an option turned is a crude version of its method's
 /// preset, where that takes part too.
-fn entries<'a>(settings: &'a [Setting]) -> Vec<Candidate<'a>> {
-    let preset_of = |setting: &Setting| {
-        let is_preset =
-            |other: &Setting| other.options.is_empty() && other.method.name == setting.method.name;
-        settings.iter().position(is_preset).filter(|_| !setting.options.is_empty())
+fn entries<'a>(configurations: &'a [Configuration]) -> Vec<Candidate<'a>> {
+    let preset_of = |configuration: &Configuration| {
+        let is_preset = |other: &Configuration| {
+            other.options.is_empty() && other.method.name == configuration.method.name
+        };
+        configurations.iter().position(is_preset).filter(|_| !configuration.options.is_empty())
     };
-    let entry =
-        |setting: &'a Setting| Candidate { name: &setting.name, refines: preset_of(setting) };
-    settings.iter().map(entry).collect()
+    let entry = |configuration: &'a Configuration| Candidate {
+        name: &configuration.name,
+        refines: preset_of(configuration),
+    };
+    configurations.iter().map(entry).collect()
 }
 
 fn refused(reason: String) -> RenderError {
@@ -103,41 +106,46 @@ fn nearby(
 struct Calibration<'a> {
     gpu: &'a Gpu,
     scene: &'a Scene,
-    settings: &'a [Setting],
+    configurations: &'a [Configuration],
     max_error: f64,
-    sparse: Stage<'a>,
+    sparse: ReferenceView<'a>,
     sparse_views: &'a [View],
-    whole: Stage<'a>,
+    whole: ReferenceView<'a>,
     whole_views: Vec<View>,
-    contenders: Vec<Option<Contender>>,
+    renderers: Vec<Option<PreparedRenderer>>,
 }
 
-impl Trial for Calibration<'_> {
-    fn sketch(&mut self, place: usize) -> Outcome {
-        let (stage, renderer) = (&self.sparse, self.settings[place].renderer(false));
-        let prepared =
-            Contender::prepare(self.gpu, renderer, self.scene, &stage.targets, stage.view);
-        let contender = prepared.map_err(|error| error.to_string())?;
-        let errors = stage.errors(&contender);
+impl Measure for Calibration<'_> {
+    fn sparse(&mut self, candidate: usize) -> Result<Measurement, String> {
+        let (reference, renderer) = (&self.sparse, self.configurations[candidate].renderer(false));
+        let prepared = PreparedRenderer::prepare(
+            self.gpu,
+            renderer,
+            self.scene,
+            &reference.targets,
+            reference.view,
+        );
+        let renderer = prepared.map_err(|error| error.to_string())?;
+        let errors = reference.errors(&renderer);
         if !errors.keep(self.max_error) {
-            return Ok(Sketch { errors, frame_ms: f64::INFINITY });
+            return Ok(Measurement { errors, frame_ms: f64::INFINITY });
         }
-        let mut alone = [contender];
+        let mut alone = [renderer];
         let timed = self.time(&self.sparse, &mut alone, self.sparse_views, SPARSE.enough);
         let frame_ms = timed.into_iter().next().unwrap_or_else(|| Err("not timed".to_owned()))?;
-        let [contender] = alone;
-        self.contenders[place] = Some(contender);
-        Ok(Sketch { errors, frame_ms })
+        let [renderer] = alone;
+        self.renderers[candidate] = Some(renderer);
+        Ok(Measurement { errors, frame_ms })
     }
 
-    fn examine(&mut self, places: &[usize]) -> Vec<Outcome> {
+    fn whole(&mut self, candidates: &[usize]) -> Vec<Result<Measurement, String>> {
         let mut drawn = Vec::new();
         let mut outcomes = Vec::new();
-        for &place in places {
-            outcomes.push(self.redraw(place).map(|contender| {
-                let errors = self.whole.errors(&contender);
+        for &candidate in candidates {
+            outcomes.push(self.redraw(candidate).map(|renderer| {
+                let errors = self.whole.errors(&renderer);
                 if errors.keep(self.max_error) {
-                    drawn.push(contender);
+                    drawn.push(renderer);
                 }
                 errors
             }));
@@ -151,7 +159,7 @@ impl Trial for Calibration<'_> {
             } else {
                 f64::INFINITY
             };
-            Ok(Sketch { errors, frame_ms })
+            Ok(Measurement { errors, frame_ms })
         };
         outcomes.into_iter().map(outcome).collect()
     }
@@ -159,23 +167,23 @@ impl Trial for Calibration<'_> {
 
 impl Calibration<'_> {
     /// The whole picture, by the renderer that drew the sparse one.
-    fn redraw(&mut self, place: usize) -> Result<Contender, String> {
-        let mut contender =
-            self.contenders[place].take().ok_or("drawn before, and was not right enough")?;
+    fn redraw(&mut self, candidate: usize) -> Result<PreparedRenderer, String> {
+        let mut renderer =
+            self.renderers[candidate].take().ok_or("drawn before, and was not right enough")?;
         let whole = &self.whole;
-        let redrawn = contender.redraw(self.gpu, &whole.targets, whole.view);
-        redrawn.map(|()| contender).map_err(|error| error.to_string())
+        let redrawn = renderer.redraw(self.gpu, &whole.targets, whole.view);
+        redrawn.map(|()| renderer).map_err(|error| error.to_string())
     }
 
-    /// Median milliseconds of each contender's frames, in turn.
+    /// Median milliseconds of each renderer's frames, in turn.
     fn time(
         &self,
-        stage: &Stage<'_>,
-        contenders: &mut [Contender],
+        reference: &ReferenceView<'_>,
+        renderers: &mut [PreparedRenderer],
         views: &[View],
         enough: Duration,
     ) -> Vec<Result<f64, String>> {
-        let timings = time_all(self.gpu, contenders, &stage.targets, views, enough, || ());
+        let timings = time_all(self.gpu, renderers, &reference.targets, views, enough, || ());
         let median = |timing: Timing| timing.frame_ms.median;
         timings
             .into_iter()

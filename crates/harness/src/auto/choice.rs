@@ -55,29 +55,26 @@ impl Errors {
     }
 }
 
-/// What a candidate's picture was like; if there is none, why.
-pub type Outcome = Result<Sketch, String>;
-
-/// A picture, measured.
+/// What was measured of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sketch {
+pub struct Measurement {
     /// How far off it is.
     pub errors: Errors,
     /// Median milliseconds of a frame; infinite where it was not timed, being too far off.
     pub frame_ms: f64,
 }
 
-/// Somebody to choose.
+/// A configuration that can be chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Candidate<'a> {
-    /// Name of the setting.
+    /// Name of the configuration.
     pub name: &'a str,
-    /// The candidate's place of which this is a cruder version, which gives error away for time.
+    /// Index of the candidate of which this is a cruder version, which gives error away for time.
     pub refines: Option<usize>,
 }
 
-/// Candidates whose whole picture is drawn at a time.
-pub const FINALISTS: usize = 4;
+/// Candidates whose whole pictures are drawn at a time.
+pub const WHOLE_AT_A_TIME: usize = 4;
 
 /// A crude version is drawn only of what takes up to so many times as long as the quickest that is
 /// right enough: no knob is known to save more.
@@ -90,8 +87,9 @@ const WHOLE_SLACK: f64 = 4.0;
 /// What was chosen, and why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// Name of the setting.
-    pub setting: String,
+    /// Name of the configuration.
+    #[serde(rename = "setting")]
+    pub configuration: String,
     /// The error that was allowed, mean support radii.
     pub max_error: f64,
     /// How far off the whole picture is, along rays that the sparse picture did not have.
@@ -104,78 +102,79 @@ pub struct Choice {
     pub left_out: Vec<(String, String)>,
 }
 
-/// Draws candidates, at given places.
-pub trait Trial {
+/// Draws candidates, given by their indices, and measures their pictures; an error says why there is none.
+pub trait Measure {
     /// A sparse picture.
-    fn sketch(&mut self, place: usize) -> Outcome;
+    fn sparse(&mut self, candidate: usize) -> Result<Measurement, String>;
 
     /// Whole pictures, timed in turn, of candidates whose sparse pictures were right enough.
-    fn examine(&mut self, places: &[usize]) -> Vec<Outcome>;
+    fn whole(&mut self, candidates: &[usize]) -> Vec<Result<Measurement, String>>;
 }
 
-/// Chooses by what the trial shows: sparse pictures of all, but of crude versions only where what they
+/// Chooses by what is measured: sparse pictures of all, but of crude versions only where what they
 /// refine is right enough and quick; then whole pictures of the quickest few of those that are right
 /// enough, until one still is. `Err`: the reasons why none is.
 pub fn choose(
     candidates: &[Candidate<'_>],
     max_error: f64,
-    trial: &mut impl Trial,
+    measure: &mut impl Measure,
 ) -> Result<Choice, Vec<(String, String)>> {
-    let name = |place: usize| candidates[place].name.to_owned();
+    let name = |index: usize| candidates[index].name.to_owned();
     let mut left_out = Vec::new();
-    let mut sort = |place: usize, outcome: &Outcome| match outcome {
-        Ok(sketch) if sketch.errors.keep(max_error) => Some((place, *sketch)),
-        Ok(sketch) => {
-            left_out.push((name(place), sketch.errors.text()));
+    let mut sort = |index: usize, outcome: &Result<Measurement, String>| match outcome {
+        Ok(measurement) if measurement.errors.keep(max_error) => Some((index, *measurement)),
+        Ok(measurement) => {
+            left_out.push((name(index), measurement.errors.text()));
             None
         }
         Err(reason) => {
-            left_out.push((name(place), reason.clone()));
+            left_out.push((name(index), reason.clone()));
             None
         }
     };
     let (crude, plain): (Vec<_>, Vec<_>) =
-        (0..candidates.len()).partition(|&place| candidates[place].refines.is_some());
+        (0..candidates.len()).partition(|&index| candidates[index].refines.is_some());
     let mut right_enough: Vec<_> =
-        plain.into_iter().filter_map(|place| sort(place, &trial.sketch(place))).collect();
-    let quickest = |sketches: &[(usize, Sketch)]| {
-        sketches.iter().map(|(_, sketch)| sketch.frame_ms).fold(f64::INFINITY, f64::min)
+        plain.into_iter().filter_map(|index| sort(index, &measure.sparse(index))).collect();
+    let quickest = |measured: &[(usize, Measurement)]| {
+        measured.iter().map(|(_, measurement)| measurement.frame_ms).fold(f64::INFINITY, f64::min)
     };
     let worth_it = CRUDE_SLACK * quickest(&right_enough);
-    for place in crude {
-        let refined = right_enough.iter().find(|(of, _)| Some(*of) == candidates[place].refines);
+    for index in crude {
+        let refined = right_enough.iter().find(|(of, _)| Some(*of) == candidates[index].refines);
         let outcome = match refined {
-            Some((_, sketch)) if sketch.frame_ms <= worth_it => trial.sketch(place),
+            Some((_, measurement)) if measurement.frame_ms <= worth_it => measure.sparse(index),
             Some((of, _)) => Err(format!("not tried: {} is too slow", name(*of))),
             None => Err("not tried: what it coarsens is left out".to_owned()),
         };
-        right_enough.extend(sort(place, &outcome));
+        right_enough.extend(sort(index, &outcome));
     }
     right_enough.sort_by(|a, b| a.1.frame_ms.total_cmp(&b.1.frame_ms));
     let mut waiting = &right_enough[..];
     while let Some((_, first)) = waiting.first() {
-        let is_near =
-            |(_, sketch): &&(usize, Sketch)| sketch.frame_ms <= WHOLE_SLACK * first.frame_ms;
-        let count = waiting.iter().take(FINALISTS).take_while(is_near).count();
+        let is_near = |(_, measurement): &&(usize, Measurement)| {
+            measurement.frame_ms <= WHOLE_SLACK * first.frame_ms
+        };
+        let count = waiting.iter().take(WHOLE_AT_A_TIME).take_while(is_near).count();
         // Whoever is first is no slower than itself, whatever its time.
         let (few, rest) = waiting.split_at(count.max(1));
         waiting = rest;
-        let places: Vec<_> = few.iter().map(|(place, _)| *place).collect();
-        let whole = trial.examine(&places);
-        let mut ranking: Vec<_> = places
+        let indices: Vec<_> = few.iter().map(|(index, _)| *index).collect();
+        let whole = measure.whole(&indices);
+        let mut ranking: Vec<_> = indices
             .iter()
             .zip(&whole)
-            .filter_map(|(&place, outcome)| sort(place, outcome))
+            .filter_map(|(&index, outcome)| sort(index, outcome))
             .collect();
         ranking.sort_by(|a, b| a.1.frame_ms.total_cmp(&b.1.frame_ms));
-        if let Some((place, sketch)) = ranking.first() {
+        if let Some((index, measurement)) = ranking.first() {
             let runner_up = ranking.get(1);
             return Ok(Choice {
-                setting: name(*place),
+                configuration: name(*index),
                 max_error,
-                errors: sketch.errors,
-                frame_ms: sketch.frame_ms,
-                runner_up: runner_up.map(|(place, next)| (name(*place), next.frame_ms)),
+                errors: measurement.errors,
+                frame_ms: measurement.frame_ms,
+                runner_up: runner_up.map(|(index, next)| (name(*index), next.frame_ms)),
                 left_out,
             });
         }
@@ -191,7 +190,7 @@ impl Choice {
             |(name, ms)| format!("the quickest; next {name} at {} ms", decimal(*ms)),
         );
         let mut lines = vec![
-            ("chosen", self.setting.clone()),
+            ("chosen", self.configuration.clone()),
             ("because", format!("{next}, of those within {}", small(self.max_error))),
             ("expects", format!("{} ms a frame; {}", decimal(self.frame_ms), self.errors.text())),
         ];
@@ -205,8 +204,8 @@ impl Choice {
 mod tests {
     use super::*;
 
-    fn sketch(p99: f64, wrong: usize, frame_ms: f64) -> Outcome {
-        Ok(Sketch { errors: Errors { rays: 7_000, wrong, p99 }, frame_ms })
+    fn measurement(p99: f64, wrong: usize, frame_ms: f64) -> Result<Measurement, String> {
+        Ok(Measurement { errors: Errors { rays: 7_000, wrong, p99 }, frame_ms })
     }
 
     const fn candidate(name: &str, refines: Option<usize>) -> Candidate<'_> {
@@ -222,34 +221,42 @@ mod tests {
 
     /// Pictures known beforehand, and who was asked for them.
     struct Known {
-        sparse: Vec<Outcome>,
-        whole: Vec<Outcome>,
-        sketched: Vec<usize>,
-        examined: Vec<Vec<usize>>,
+        sparse: Vec<Result<Measurement, String>>,
+        whole: Vec<Result<Measurement, String>>,
+        drawn_sparsely: Vec<usize>,
+        drawn_whole: Vec<Vec<usize>>,
     }
 
     impl Known {
-        fn new(sparse: Vec<Outcome>, whole: Vec<Outcome>) -> Self {
-            Self { sparse, whole, sketched: Vec::new(), examined: Vec::new() }
+        fn new(
+            sparse: Vec<Result<Measurement, String>>,
+            whole: Vec<Result<Measurement, String>>,
+        ) -> Self {
+            Self { sparse, whole, drawn_sparsely: Vec::new(), drawn_whole: Vec::new() }
         }
     }
 
-    impl Trial for Known {
-        fn sketch(&mut self, place: usize) -> Outcome {
-            self.sketched.push(place);
-            self.sparse[place].clone()
+    impl Measure for Known {
+        fn sparse(&mut self, candidate: usize) -> Result<Measurement, String> {
+            self.drawn_sparsely.push(candidate);
+            self.sparse[candidate].clone()
         }
 
-        fn examine(&mut self, places: &[usize]) -> Vec<Outcome> {
-            self.examined.push(places.to_vec());
-            places.iter().map(|&place| self.whole[place].clone()).collect()
+        fn whole(&mut self, candidates: &[usize]) -> Vec<Result<Measurement, String>> {
+            self.drawn_whole.push(candidates.to_vec());
+            candidates.iter().map(|&index| self.whole[index].clone()).collect()
         }
     }
 
     /// Three that draw, from slow and right to quick and wrong, and one that refuses.
-    fn outcomes() -> Vec<Outcome> {
+    fn outcomes() -> Vec<Result<Measurement, String>> {
         let refused = Err("needed a polynomial, found none".to_owned());
-        vec![sketch(1e-7, 0, 9.0), sketch(0.03, 0, 4.0), sketch(1e-4, 1, 1.0), refused]
+        vec![
+            measurement(1e-7, 0, 9.0),
+            measurement(0.03, 0, 4.0),
+            measurement(1e-4, 1, 1.0),
+            refused,
+        ]
     }
 
     fn chosen(max_error: f64) -> Result<Choice, Vec<(String, String)>> {
@@ -259,10 +266,10 @@ mod tests {
     #[test]
     fn the_cubic_is_chosen_where_it_is_good_enough() {
         let lax = chosen(0.05).expect("two will do");
-        assert_eq!(lax.setting, "cubic");
+        assert_eq!(lax.configuration, "cubic");
         assert_eq!(lax.runner_up, Some(("exact".to_owned(), 9.0)));
         let strict = chosen(1e-3).expect("one will do");
-        assert_eq!((strict.setting.as_str(), &strict.runner_up), ("exact", &None));
+        assert_eq!((strict.configuration.as_str(), &strict.runner_up), ("exact", &None));
         // A single wrong verdict of 7,000 is one too many, however quick; refusals keep their words.
         let reason = |choice: &Choice, of: &str| {
             choice.left_out.iter().find(|(name, _)| name == of).map(|(_, reason)| reason.clone())
@@ -277,12 +284,12 @@ mod tests {
     #[test]
     fn held_out_rays_have_the_last_word() {
         // The cubic looks right in the sparse picture and is not in the whole one.
-        let sparse = vec![sketch(1e-7, 0, 9.0), sketch(1e-4, 0, 4.0)];
-        let whole = vec![sketch(1e-7, 0, 90.0), sketch(0.2, 0, 40.0)];
-        let mut trial = Known::new(sparse, whole);
-        let choice = choose(&CANDIDATES[..2], 1e-3, &mut trial).expect("one will do");
-        assert_eq!((choice.setting.as_str(), choice.frame_ms), ("exact", 90.0));
-        assert_eq!(trial.examined, [[1, 0]], "the quickest first");
+        let sparse = vec![measurement(1e-7, 0, 9.0), measurement(1e-4, 0, 4.0)];
+        let whole = vec![measurement(1e-7, 0, 90.0), measurement(0.2, 0, 40.0)];
+        let mut known = Known::new(sparse, whole);
+        let choice = choose(&CANDIDATES[..2], 1e-3, &mut known).expect("one will do");
+        assert_eq!((choice.configuration.as_str(), choice.frame_ms), ("exact", 90.0));
+        assert_eq!(known.drawn_whole, [[1, 0]], "the quickest first");
     }
 
     #[test]
@@ -296,43 +303,44 @@ mod tests {
             candidate("wrong, crude", Some(4)),
         ];
         let all = vec![
-            sketch(0.0, 0, 1.0),
-            sketch(1e-4, 0, 0.5),
-            sketch(0.0, 0, 2.5),
-            sketch(0.0, 0, 0.1),
-            sketch(0.0, 9, 0.1),
-            sketch(0.0, 0, 0.1),
+            measurement(0.0, 0, 1.0),
+            measurement(1e-4, 0, 0.5),
+            measurement(0.0, 0, 2.5),
+            measurement(0.0, 0, 0.1),
+            measurement(0.0, 9, 0.1),
+            measurement(0.0, 0, 0.1),
         ];
-        let mut trial = Known::new(all.clone(), all);
-        let choice = choose(&candidates, 1e-3, &mut trial).expect("some will do");
-        assert_eq!(choice.setting, "quick, crude");
-        assert_eq!(trial.sketched, [0, 2, 4, 1]);
+        let mut known = Known::new(all.clone(), all);
+        let choice = choose(&candidates, 1e-3, &mut known).expect("some will do");
+        assert_eq!(choice.configuration, "quick, crude");
+        assert_eq!(known.drawn_sparsely, [0, 2, 4, 1]);
         // Five times as slow in the sparse picture is too slow for a whole one.
-        assert_eq!(trial.examined, [[1, 0]]);
+        assert_eq!(known.drawn_whole, [[1, 0]]);
         let untried = choice.left_out.iter().filter(|(_, reason)| reason.starts_with("not tried"));
         assert_eq!(untried.count(), 2);
     }
 
     #[test]
     fn more_are_examined_only_while_none_will_do() {
-        let count = 2 * FINALISTS + 1;
+        let count = 2 * WHOLE_AT_A_TIME + 1;
         let candidates = vec![candidate("same", None); count];
-        let sparse: Vec<_> = (0..count).map(|place| sketch(0.0, 0, 10.0 + place as f64)).collect();
-        let is_wrong = |place: usize| if place < FINALISTS { 1.0 } else { 0.0 };
+        let sparse: Vec<_> =
+            (0..count).map(|index| measurement(0.0, 0, 10.0 + index as f64)).collect();
+        let is_wrong = |index: usize| if index < WHOLE_AT_A_TIME { 1.0 } else { 0.0 };
         let whole =
-            (0..count).map(|place| sketch(is_wrong(place), 0, 10.0 + place as f64)).collect();
-        let mut trial = Known::new(sparse, whole);
-        let choice = choose(&candidates, 1e-3, &mut trial).expect("one will do");
-        assert_eq!((choice.frame_ms, trial.examined.len()), (10.0 + FINALISTS as f64, 2));
+            (0..count).map(|index| measurement(is_wrong(index), 0, 10.0 + index as f64)).collect();
+        let mut known = Known::new(sparse, whole);
+        let choice = choose(&candidates, 1e-3, &mut known).expect("one will do");
+        assert_eq!((choice.frame_ms, known.drawn_whole.len()), (10.0 + WHOLE_AT_A_TIME as f64, 2));
     }
 
     #[test]
     fn nobody_is_chosen_where_nobody_will_do() {
         assert_eq!(chosen(1e-9).expect_err("too strict").len(), CANDIDATES.len());
         // No number is no small error.
-        let broken = vec![sketch(f64::NAN, 0, 1.0), sketch(f64::INFINITY, 0, 1.0)];
-        let mut trial = Known::new(broken, Vec::new());
-        assert!(choose(&CANDIDATES[..2], 1.0, &mut trial).is_err());
-        assert!(trial.examined.is_empty());
+        let broken = vec![measurement(f64::NAN, 0, 1.0), measurement(f64::INFINITY, 0, 1.0)];
+        let mut known = Known::new(broken, Vec::new());
+        assert!(choose(&CANDIDATES[..2], 1.0, &mut known).is_err());
+        assert!(known.drawn_whole.is_empty());
     }
 }

@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 use crate::console::ProgressBar;
 use harness::auto::calibration::calibrate;
 use harness::auto::choice::{Choice, Errors};
-use harness::auto::stage::Stage;
-use harness::measure::{Contender, Sampling, time_all, views};
-use harness::settings::Setting;
+use harness::auto::reference_view::ReferenceView;
+use harness::configuration::Configuration;
+use harness::measure::{PreparedRenderer, Sampling, time_all, views};
 
 /// A scene to choose for.
 #[derive(Debug, Clone)]
@@ -83,15 +83,15 @@ impl Study {
         Ok(load(&self.spec, &Overrides::default())?)
     }
 
-    pub(super) fn steps(&self, settings: &[Setting]) -> u64 {
-        (self.errors.len() + settings.len() * (1 + FRAMES.most)) as u64
+    pub(super) fn steps(&self, configurations: &[Configuration]) -> u64 {
+        (self.errors.len() + configurations.len() * (1 + FRAMES.most)) as u64
     }
 
     /// Chooses for each error as if nothing had been chosen before, then draws with everybody.
     pub(super) fn make(
         &self,
         gpu: &Gpu,
-        settings: &[Setting],
+        configurations: &[Configuration],
         progress: &ProgressBar,
     ) -> anyhow::Result<Measured> {
         progress.stage(format!("{}: loading", self.spec));
@@ -101,15 +101,15 @@ impl Study {
         let choose = |&max_error: &f64| {
             progress.stage(format!("{}: choosing for {max_error}", self.spec));
             let start = Instant::now();
-            let choice = calibrate(gpu, &bench.scene, &view, settings, max_error);
+            let choice = calibrate(gpu, &bench.scene, &view, configurations, max_error);
             progress.advance(1);
             (max_error, choice.map_err(|error| error.to_string()), start.elapsed().as_secs_f64())
         };
         let choices: Vec<_> = self.errors.iter().map(choose).collect();
-        let all = self.draw_all(gpu, &bench, settings, progress)?;
+        let all = self.draw_all(gpu, &bench, configurations, progress)?;
         let verdict = |(max_error, choice, seconds): (f64, Result<Choice, String>, f64)| Verdict {
             max_error,
-            drawn: choice.as_ref().ok().and_then(|choice| drawn(&all, &choice.setting)),
+            drawn: choice.as_ref().ok().and_then(|choice| drawn(&all, &choice.configuration)),
             best: best(&all, max_error),
             choice,
             seconds,
@@ -123,7 +123,7 @@ impl Study {
         &self,
         gpu: &Gpu,
         bench: &BenchScene,
-        settings: &[Setting],
+        configurations: &[Configuration],
         progress: &ProgressBar,
     ) -> anyhow::Result<Vec<(String, Result<Drawn, String>)>> {
         let bounds = bench.scene.bounds();
@@ -131,17 +131,23 @@ impl Study {
         let near = views(&bench.camera, &[], &bounds, self.size, 2 * FRAMES.most)?;
         let timed = &near[FRAMES.most..];
         let Some(unused) = timed.last() else { anyhow::bail!("needed a view, found none") };
-        let stage = Stage::new(gpu, &bench.scene, &Oracle::new(&bench.scene), unused, RAYS)?;
-        let (mut contenders, mut outcomes) = (Vec::new(), Vec::new());
-        for setting in settings {
-            progress.stage(format!("{}: {setting}", self.spec));
-            let renderer = setting.renderer(false);
-            let prepared =
-                Contender::prepare(gpu, renderer, &bench.scene, &stage.targets, stage.view);
+        let reference =
+            ReferenceView::new(gpu, &bench.scene, &Oracle::new(&bench.scene), unused, RAYS)?;
+        let (mut renderers, mut outcomes) = (Vec::new(), Vec::new());
+        for configuration in configurations {
+            progress.stage(format!("{}: {configuration}", self.spec));
+            let renderer = configuration.renderer(false);
+            let prepared = PreparedRenderer::prepare(
+                gpu,
+                renderer,
+                &bench.scene,
+                &reference.targets,
+                reference.view,
+            );
             outcomes.push(match prepared {
-                Ok(contender) => {
-                    let errors = stage.errors(&contender);
-                    contenders.push(contender);
+                Ok(renderer) => {
+                    let errors = reference.errors(&renderer);
+                    renderers.push(renderer);
                     Ok(errors)
                 }
                 Err(error) => Err(error.to_string()),
@@ -150,7 +156,8 @@ impl Study {
         }
         progress.stage(format!("{}: timing", self.spec));
         let advance = || progress.advance(1);
-        let timings = time_all(gpu, &mut contenders, &stage.targets, timed, FRAMES.enough, advance);
+        let timings =
+            time_all(gpu, &mut renderers, &reference.targets, timed, FRAMES.enough, advance);
         let mut timings = timings.into_iter();
         let drawn = |errors: Result<Errors, String>| {
             let errors = errors?;
@@ -158,7 +165,11 @@ impl Study {
             Ok(Drawn { errors, frame_ms: timing.frame_ms.median })
         };
         let outcomes: Vec<_> = outcomes.into_iter().map(drawn).collect();
-        Ok(settings.iter().map(|setting| setting.name.clone()).zip(outcomes).collect())
+        Ok(configurations
+            .iter()
+            .map(|configuration| configuration.name.clone())
+            .zip(outcomes)
+            .collect())
     }
 }
 

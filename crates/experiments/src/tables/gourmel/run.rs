@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::plan::subject;
 use super::settings::Setting;
 use crate::console::ProgressBar;
-use harness::measure::{Contender, count_work, milliseconds, time_all, views};
+use harness::measure::{PreparedRenderer, count_work, milliseconds, time_all, views};
 use harness::record::{Samples, WorkPerRay};
 
 /// A structure measured on a scene.
@@ -130,29 +130,29 @@ pub fn measure(
     let colors = scene.colors().is_some();
     let targets = Targets::new(gpu, shoot.size.0, shoot.size.1, colors, false)?;
 
-    let mut contenders = Vec::new();
-    let mut prepared = Vec::new();
+    let mut renderers = Vec::new();
+    let mut outcomes = Vec::new();
     for &setting in settings {
         progress.stage(format!("{spec}: {}", setting.name()));
         let outcome = build(scene, &setting.options()).and_then(|built| {
             let drawn = renderer(setting, false);
-            let contender = Contender::prepare(gpu, drawn, scene, &targets, &views[0])?;
+            let prepared = PreparedRenderer::prepare(gpu, drawn, scene, &targets, &views[0])?;
             let work = count_work(gpu, renderer(setting, true), scene, &views[0])?;
-            contenders.push(contender);
+            renderers.push(prepared);
             Ok((built, work))
         });
-        prepared.push((setting, outcome));
+        outcomes.push((setting, outcome));
         progress.advance(2);
     }
 
     progress.stage(format!("{spec}: timing"));
     let advance = || progress.advance(1);
-    let timings = time_all(gpu, &mut contenders, &targets, &views, Duration::MAX, advance);
+    let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, advance);
     let mut timings = timings.into_iter();
     let run = |(setting, prepared): (Setting, anyhow::Result<Prepared>)| {
         let about = || format!("{spec}, {}", setting.name());
         let ((build_ms, tree), work) = prepared.with_context(about)?;
-        let timing = timings.next().context("a timing for each contender")?.with_context(about)?;
+        let timing = timings.next().context("a timing for each renderer")?.with_context(about)?;
         Ok(Run {
             scene: spec.to_owned(),
             balls: scene.len(),
@@ -164,7 +164,7 @@ pub fn measure(
             work,
         })
     };
-    Ok(prepared.into_iter().map(run).collect())
+    Ok(outcomes.into_iter().map(run).collect())
 }
 
 /// The scene with a factor on its balls' supports; the threshold stays, and so the solid swells.

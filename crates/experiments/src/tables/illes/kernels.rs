@@ -8,7 +8,7 @@ use metaball_core::reference::Oracle;
 use metaball_core::{Kernel, View};
 use serde::{Deserialize, Serialize};
 
-use harness::measure::Contender;
+use harness::measure::PreparedRenderer;
 use harness::reference::Reference;
 use harness::score::{Accuracy, score};
 
@@ -61,8 +61,8 @@ pub fn compare(
     let outcome = |name, piece| -> anyhow::Result<Outcome> {
         let options = Options { piece, ..Options::default() };
         let renderer = Box::new(Renderer::new(name, options, false));
-        Ok(match Contender::prepare(gpu, renderer, &bench.scene, &targets, &view) {
-            Ok(contender) => Outcome::Compared(score(&reference, &contender.hits)?),
+        Ok(match PreparedRenderer::prepare(gpu, renderer, &bench.scene, &targets, &view) {
+            Ok(renderer) => Outcome::Compared(score(&reference, &renderer.hits)?),
             Err(error) => Outcome::Refused(error.to_string()),
         })
     };

@@ -10,7 +10,7 @@ use metaball_core::View;
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets};
 use serde::{Deserialize, Serialize};
 
-use harness::measure::{Contender, time_all, views};
+use harness::measure::{PreparedRenderer, time_all, views};
 use harness::record::Samples;
 use harness::stats::{quantile, sorted};
 
@@ -154,26 +154,26 @@ pub fn measure(
     let scene = &bench.scene;
     let views = views(&bench.camera, &[], &scene.bounds(), size, frames.max(1))?;
     let targets = Targets::new(gpu, size.0, size.1, scene.colors().is_some(), false)?;
-    let mut contenders = Vec::new();
+    let mut renderers = Vec::new();
     let mut prepared = Vec::new();
     for setting in SETTINGS {
         stage(setting.0);
         prepared.push(prepare(gpu, bench, setting, &targets, &views[0]).map(
-            |(contender, lists)| {
-                contenders.push(contender);
+            |(renderer, lists)| {
+                renderers.push(renderer);
                 lists
             },
         ));
     }
     stage("timing");
-    let timings = time_all(gpu, &mut contenders, &targets, &views, Duration::MAX, || ());
-    let mut timed = contenders.into_iter().zip(timings);
+    let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, || ());
+    let mut timed = renderers.into_iter().zip(timings);
     let run = |((setting, ..), lists): ((&str, Gather, Sort), anyhow::Result<Lists>)| {
         let about = || format!("{}, {setting}", bench.name);
         let lists = lists.with_context(about)?;
-        let (contender, timing) = timed.next().context("a timing for each contender")?;
+        let (renderer, timing) = timed.next().context("a timing for each renderer")?;
         let timing = timing.with_context(about)?;
-        let scene_bytes = contender.build.device_bytes;
+        let scene_bytes = renderer.build.device_bytes;
         Ok(Run {
             scene: bench.name.clone(),
             balls: scene.len(),
@@ -181,11 +181,11 @@ pub fn measure(
             phases: Phases::new(timing.frame_ms.median, &timing.passes),
             frame_ms: timing.frame_ms,
             passes: timing.passes,
-            fallback_pixels: contender.hits.iter().filter(|hit| hit.fallback).count() as u64,
+            fallback_pixels: renderer.hits.iter().filter(|hit| hit.fallback).count() as u64,
             lists,
             memory: Memory {
                 scene_bytes,
-                frame_bytes: contender.device_bytes() - scene_bytes,
+                frame_bytes: renderer.device_bytes() - scene_bytes,
                 target_bytes: targets.bytes(),
             },
         })
@@ -199,11 +199,11 @@ fn prepare(
     setting: (&'static str, Gather, Sort),
     targets: &Targets,
     view: &View,
-) -> anyhow::Result<(Contender, Lists)> {
+) -> anyhow::Result<(PreparedRenderer, Lists)> {
     let mut renderer = renderer(setting);
     renderer.build(gpu, &bench.scene)?;
     let lists = Lists::new(&renderer.list_lengths(gpu, targets, view)?);
-    Ok((Contender::prepare(gpu, Box::new(renderer), &bench.scene, targets, view)?, lists))
+    Ok((PreparedRenderer::prepare(gpu, Box::new(renderer), &bench.scene, targets, view)?, lists))
 }
 
 #[cfg(test)]

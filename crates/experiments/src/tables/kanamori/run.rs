@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::plan::{Bout, Part};
 use super::settings::Setting;
 use crate::console::ProgressBar;
-use harness::measure::{Contender, milliseconds, time_all, views};
+use harness::measure::{PreparedRenderer, milliseconds, time_all, views};
 use harness::record::Samples;
 
 /// A bout with its results.
@@ -107,14 +107,14 @@ pub fn measure(gpu: &Gpu, bout: &Bout, progress: &ProgressBar) -> anyhow::Result
     let (width, height) = bout.size;
     let targets = Targets::new(gpu, width, height, scene.colors().is_some(), false)?;
 
-    let mut contenders = Vec::new();
+    let mut renderers = Vec::new();
     let mut prepared = Vec::new();
     let mut seen = None;
     for &setting in &bout.settings {
         progress.stage(format!("{}: {}", bout.spec, setting.name()));
         let outcome = prepare(gpu, scene, &targets, &views[0], setting).and_then(|made| {
             let rays = targets.read_rays(gpu, &views[0])?;
-            contenders.push(made.0);
+            renderers.push(made.0);
             seen = Some(rays);
             Ok(made.1)
         });
@@ -127,9 +127,9 @@ pub fn measure(gpu: &Gpu, bout: &Bout, progress: &ProgressBar) -> anyhow::Result
     let (cpu, reference) = baseline(scene, &rays)?;
     progress.stage(format!("{}: timing", bout.spec));
     let errors: Vec<_> =
-        contenders.iter().map(|contender| error_of_t(&contender.hits, &reference)).collect();
+        renderers.iter().map(|renderer| error_of_t(&renderer.hits, &reference)).collect();
     let advance = || progress.advance(1);
-    let timings = time_all(gpu, &mut contenders, &targets, &views, Duration::MAX, advance);
+    let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, advance);
     let mut timed = timings.into_iter().zip(errors);
 
     let run = |(setting, prepared): (Setting, anyhow::Result<WorkOfRays>)| {
@@ -158,7 +158,7 @@ fn prepare(
     targets: &Targets,
     view: &View,
     setting: Setting,
-) -> anyhow::Result<(Contender, WorkOfRays)> {
+) -> anyhow::Result<(PreparedRenderer, WorkOfRays)> {
     let size = (view.width(), view.height());
     let mut counting = setting.renderer(size, true);
     counting.build(gpu, scene)?;
@@ -167,8 +167,9 @@ fn prepare(
     let mut work = WorkOfRays::of(&counted.read_work(gpu)?.unwrap_or_default());
     let facts = counting.frame_facts(gpu)?.into_iter();
     work.facts = facts.map(|(name, value)| (name.to_owned(), value)).collect();
-    let contender = Contender::prepare(gpu, setting.renderer(size, false), scene, targets, view)?;
-    Ok((contender, work))
+    let renderer =
+        PreparedRenderer::prepare(gpu, setting.renderer(size, false), scene, targets, view)?;
+    Ok((renderer, work))
 }
 
 /// What the counters of a picture come to; see [`GpuRun`].

@@ -9,7 +9,7 @@ use metaball_core::{Generality, Hit, Scene, View};
 use serde::{Deserialize, Serialize};
 
 use crate::console::ProgressBar;
-use harness::measure::{Contender, milliseconds, views};
+use harness::measure::{PreparedRenderer, milliseconds, views};
 use harness::methods::Method;
 use harness::record::Samples;
 
@@ -102,7 +102,7 @@ pub struct Measured {
 
 /// A form ready to draw.
 struct Drawer {
-    contender: Contender,
+    renderer: PreparedRenderer,
     targets: Targets,
     code: u64,
     frame_ms: Vec<f64>,
@@ -120,16 +120,16 @@ impl Drawer {
         let targets = Targets::new(gpu, view.width(), view.height(), has_colors, form.counting)?;
         let before = gpu.code();
         let renderer = method.renderer(form.counting);
-        let contender = Contender::prepare(gpu, renderer, scene, &targets, view)?;
-        Ok(Self { contender, targets, code: gpu.code() - before, frame_ms: Vec::new() })
+        let renderer = PreparedRenderer::prepare(gpu, renderer, scene, &targets, view)?;
+        Ok(Self { renderer, targets, code: gpu.code() - before, frame_ms: Vec::new() })
     }
 
     fn measured(self, specialised: &Specialised) -> Measured {
         let times = zip(&self.frame_ms, &specialised.frame_ms).map(|(own, least)| own / least);
-        let hits = zip(&self.contender.hits, &specialised.hits);
+        let hits = zip(&self.renderer.hits, &specialised.hits);
         Measured {
             times: Samples::new(times.collect()),
-            device_bytes: self.contender.device_bytes() + self.targets.bytes(),
+            device_bytes: self.renderer.device_bytes() + self.targets.bytes(),
             code: self.code,
             differing_pixels: hits.filter(|(own, other)| own != other).count(),
             frame_ms: Samples::new(self.frame_ms),
@@ -167,15 +167,15 @@ impl Bout {
             progress.advance(1);
         }
         for view in &views {
-            for Drawer { contender, targets, frame_ms, .. } in drawers.iter_mut().flatten() {
-                let report = contender.draw(gpu, targets, view)?;
+            for Drawer { renderer, targets, frame_ms, .. } in drawers.iter_mut().flatten() {
+                let report = renderer.draw(gpu, targets, view)?;
                 frame_ms.push(milliseconds(report.wall));
             }
             progress.advance(1);
         }
         let specialised = match &drawers[0] {
-            Ok(Drawer { contender, frame_ms, .. }) => {
-                Specialised { frame_ms: frame_ms.clone(), hits: contender.hits.clone() }
+            Ok(Drawer { renderer, frame_ms, .. }) => {
+                Specialised { frame_ms: frame_ms.clone(), hits: renderer.hits.clone() }
             }
             Err(reason) => anyhow::bail!("{reason}"),
         };

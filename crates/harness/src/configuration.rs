@@ -14,7 +14,7 @@ use crate::technique::Technique;
 
 /// A method with its options set.
 #[derive(Debug, Clone)]
-pub struct Setting {
+pub struct Configuration {
     /// The method.
     pub method: &'static Method,
     /// Names and values of the options that differ from the method's preset.
@@ -28,7 +28,7 @@ pub struct Setting {
     pub title: String,
 }
 
-impl Setting {
+impl Configuration {
     /// The method as it is listed.
     pub fn preset(method: &'static Method) -> Self {
         let (name, title) = (method.name.to_owned(), method.title.to_owned());
@@ -56,13 +56,13 @@ impl Setting {
     }
 }
 
-impl From<&'static Method> for Setting {
+impl From<&'static Method> for Configuration {
     fn from(method: &'static Method) -> Self {
         Self::preset(method)
     }
 }
 
-impl fmt::Display for Setting {
+impl fmt::Display for Configuration {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.name)
     }
@@ -84,10 +84,10 @@ mod tests {
     #[test]
     fn settings_say_what_they_set() {
         let method = &methods()[1];
-        assert_eq!(Setting::preset(method).to_string(), "fbvh");
+        assert_eq!(Configuration::preset(method).to_string(), "fbvh");
         let trace = TraceOptions { tolerance: 1e-3, ..TraceOptions::DEFAULT };
         let technique = Technique::Tree(fbvh::Options::fitted(), trace);
-        let set = Setting::with(method, "tolerance", "1e-3", technique);
+        let set = Configuration::with(method, "tolerance", "1e-3", technique);
         assert_eq!(set.to_string(), "fbvh, tolerance 1e-3");
         assert_eq!(set.renderer(false).name(), "fbvh");
         assert_eq!(set.called("fbvh+coarse", "… coarse").to_string(), "fbvh+coarse");

@@ -7,25 +7,27 @@ use metaball_core::gpu::{Gpu, Picture, RenderError, Shading, Targets};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Verdict, View};
 
+use crate::configuration::Configuration;
 use crate::heat::heat_map;
-use crate::measure::{Contender, Sampling, Timing, count_work, milliseconds, time_all, views};
+use crate::measure::{
+    PreparedRenderer, Sampling, Timing, count_work, milliseconds, time_all, views,
+};
 use crate::progress::Progress;
 use crate::record::{Adapter, Measured, Record, Status, WorkPerRay};
 use crate::reference::Reference;
-use crate::score::{Accuracy, is_murky, score};
-use crate::settings::Setting;
+use crate::score::{Accuracy, many_are_ambiguous, score};
 use picture_files::encode_png;
 
-/// How to hold a contest.
+/// How to compare.
 #[derive(Debug, Clone)]
-pub struct Rules {
-    /// Who takes part.
-    pub settings: Vec<Setting>,
+pub struct Options {
+    /// What is compared.
+    pub configurations: Vec<Configuration>,
     /// Pixels across and down.
     pub size: (u32, u32),
     /// How often each is timed.
     pub sampling: Sampling,
-    /// Whether to time along the scene's camera path, where it has one, in place of near its camera.
+    /// Whether to time along the scene's camera path, where it has one, instead of near its camera.
     pub along_path: bool,
     /// Whether to compare every pixel of a large scene too.
     pub every_pixel: bool,
@@ -33,9 +35,9 @@ pub struct Rules {
     pub counts_work: bool,
 }
 
-/// What a contest yields.
+/// All methods on one scene.
 #[derive(Debug, Clone)]
-pub struct Contest {
+pub struct SceneComparison {
     /// Name of the scene.
     pub scene: String,
     /// One sentence about it.
@@ -72,27 +74,27 @@ const COMPARED_WHOLE_BALLS: usize = 10_000;
 /// the square of the balls that a ray meets, to minutes.
 const COMPARED_WHOLE_OVERLAP: f64 = 100.0;
 
-/// Steps of progress that [`hold`] makes. A setting's first frame, for which shaders are compiled, counts
-/// as much as all that are timed, which take about as long.
-pub fn steps(rules: &Rules) -> u64 {
-    (rules.settings.len() * (2 * rules.sampling.most + 1) + 1) as u64
+/// Steps of progress that [`compare_scene`] makes. A configuration's first frame, for which shaders are
+/// compiled, counts as much as all that are timed, which take about as long.
+pub fn steps(options: &Options) -> u64 {
+    (options.configurations.len() * (2 * options.sampling.most + 1) + 1) as u64
 }
 
-/// Holds the contest. A method that cannot build or draw has a record that says why, and the others
-/// go on.
+/// Compares all configurations on a scene. One that cannot build or draw has a record that says why; the
+/// others continue.
 ///
 /// # Errors
 /// When the scene or the size is too much for what all methods share: the targets, or the shading.
-pub fn hold(
+pub fn compare_scene(
     gpu: &Gpu,
     bench: &BenchScene,
-    rules: &Rules,
+    options: &Options,
     progress: &dyn Progress,
-) -> anyhow::Result<Contest> {
-    let arena = Arena::new(gpu, bench, rules, progress)?;
-    let mut outcomes = Outcomes::new();
-    let drawings = arena.draw(&mut outcomes)?;
-    let mut contest = Contest {
+) -> anyhow::Result<SceneComparison> {
+    let comparer = Comparer::new(gpu, bench, options, progress)?;
+    let mut results = Results::new();
+    let frames = comparer.draw(&mut results)?;
+    let mut comparison = SceneComparison {
         scene: bench.name.clone(),
         about: bench.about.clone(),
         records: Vec::new(),
@@ -100,125 +102,135 @@ pub fn hold(
         pictures: Vec::new(),
         remarks: Vec::new(),
     };
-    if !drawings.is_empty() {
-        arena.judge(drawings, &mut outcomes, &mut contest)?;
+    if !frames.is_empty() {
+        comparer.compare(frames, &mut results, &mut comparison)?;
     }
-    contest.records =
-        outcomes.into_iter().map(|(place, outcome)| arena.record(place, outcome)).collect();
-    Ok(contest)
+    comparison.records =
+        results.into_iter().map(|(index, result)| comparer.record(index, result)).collect();
+    Ok(comparison)
 }
 
-/// What became of each setting, by its place in the rules.
-type Outcomes = BTreeMap<usize, Result<Measured, RenderError>>;
+/// What was measured of each configuration, by its index in the options.
+type Results = BTreeMap<usize, Result<Measured, RenderError>>;
 
 /// A method's first frame.
-struct Drawing {
-    place: usize,
-    contender: Contender,
+struct FirstFrame {
+    index: usize,
+    renderer: PreparedRenderer,
     shaded: Vec<u8>,
 }
 
-/// What the whole of a contest shares.
-struct Arena<'a> {
+/// What all configurations share on a scene.
+struct Comparer<'a> {
     gpu: &'a Gpu,
     bench: &'a BenchScene,
-    rules: &'a Rules,
+    options: &'a Options,
     progress: &'a dyn Progress,
     view: View,
     targets: Targets,
 }
 
-impl<'a> Arena<'a> {
+impl<'a> Comparer<'a> {
     fn new(
         gpu: &'a Gpu,
         bench: &'a BenchScene,
-        rules: &'a Rules,
+        options: &'a Options,
         progress: &'a dyn Progress,
     ) -> anyhow::Result<Self> {
-        let (width, height) = rules.size;
+        let (width, height) = options.size;
         let view = View::new(bench.camera, width, height)?;
         let colors = bench.scene.colors().is_some();
         let targets = Targets::new(gpu, width, height, colors, false)?;
-        Ok(Self { gpu, bench, rules, progress, view, targets })
+        Ok(Self { gpu, bench, options, progress, view, targets })
     }
 
     /// Each method's first frame: the one to compare. It also warms the method up.
-    fn draw(&self, outcomes: &mut Outcomes) -> anyhow::Result<Vec<Drawing>> {
-        let mut drawings = Vec::new();
-        for (place, setting) in self.rules.settings.iter().enumerate() {
-            self.stage(&setting.to_string());
+    fn draw(&self, results: &mut Results) -> anyhow::Result<Vec<FirstFrame>> {
+        let mut frames = Vec::new();
+        for (index, configuration) in self.options.configurations.iter().enumerate() {
+            self.stage(&configuration.to_string());
             let scene = &self.bench.scene;
-            match Contender::prepare(
+            match PreparedRenderer::prepare(
                 self.gpu,
-                setting.renderer(false),
+                configuration.renderer(false),
                 scene,
                 &self.targets,
                 &self.view,
             ) {
-                Ok(contender) => {
-                    drawings.push(Drawing { place, contender, shaded: self.shade()? });
+                Ok(renderer) => {
+                    frames.push(FirstFrame { index, renderer, shaded: self.shade()? });
                 }
                 Err(error) => {
-                    outcomes.insert(place, Err(error));
+                    results.insert(index, Err(error));
                 }
             }
-            self.progress.advance(self.rules.sampling.most as u64);
+            self.progress.advance(self.options.sampling.most as u64);
         }
-        Ok(drawings)
+        Ok(frames)
     }
 
     /// Compares, times and counts all that drew.
-    fn judge(
+    fn compare(
         &self,
-        drawings: Vec<Drawing>,
-        outcomes: &mut Outcomes,
-        contest: &mut Contest,
+        frames: Vec<FirstFrame>,
+        results: &mut Results,
+        comparison: &mut SceneComparison,
     ) -> anyhow::Result<()> {
         self.stage("reference");
-        let images: Vec<_> = drawings.iter().map(|d| d.contender.hits.as_slice()).collect();
-        let reference = self.ask_oracle(&images)?;
+        let images: Vec<_> = frames.iter().map(|d| d.renderer.hits.as_slice()).collect();
+        let reference = self.reference(&images)?;
         // Colours, where there are any, are those of the method that drew last.
         self.targets.write_hits(self.gpu, &reference.hits())?;
-        contest.reference = Some(self.shade()?);
+        comparison.reference = Some(self.shade()?);
         self.progress.advance(1);
 
         self.stage("timing");
-        let (places, shaded, mut contenders) = unzip(drawings);
-        let timings = self.time(&mut contenders)?;
+        let (indices, shaded, mut renderers) = unzip(frames);
+        let timings = self.time(&mut renderers)?;
 
-        self.stage(if self.rules.counts_work { "counting work" } else { "scoring" });
-        for (((place, shaded), contender), timing) in
-            places.into_iter().zip(shaded).zip(contenders).zip(timings)
+        self.stage(if self.options.counts_work { "counting work" } else { "scoring" });
+        for (((index, shaded), renderer), timing) in
+            indices.into_iter().zip(shaded).zip(renderers).zip(timings)
         {
-            let setting = &self.rules.settings[place];
-            let accuracy = score(&reference, &contender.hits)?;
-            let heat = encode_png(&heat_map(&reference, &contender.hits))?;
-            let outcome = timing.and_then(|timing| {
-                let count =
-                    || count_work(self.gpu, setting.renderer(true), &self.bench.scene, &self.view);
-                let work = self.rules.counts_work.then(count).transpose()?;
-                Ok(measured(&contender, timing, accuracy, work))
+            let configuration = &self.options.configurations[index];
+            let accuracy = score(&reference, &renderer.hits)?;
+            let heat = encode_png(&heat_map(&reference, &renderer.hits))?;
+            let result = timing.and_then(|timing| {
+                let count = || {
+                    count_work(
+                        self.gpu,
+                        configuration.renderer(true),
+                        &self.bench.scene,
+                        &self.view,
+                    )
+                };
+                let work = self.options.counts_work.then(count).transpose()?;
+                Ok(measured(&renderer, timing, accuracy, work))
             });
-            if outcome.is_ok() {
-                contest.pictures.push(Pictures { method: setting.method.name, shaded, heat });
+            if result.is_ok() {
+                comparison.pictures.push(Pictures {
+                    method: configuration.method.name,
+                    shaded,
+                    heat,
+                });
             }
-            outcomes.insert(place, outcome);
+            results.insert(index, result);
             self.progress.advance(1);
         }
-        contest.remarks = remarks(&reference);
+        comparison.remarks = remarks(&reference);
         Ok(())
     }
 
     /// The truth along the rays that the shaders used, read back.
-    fn ask_oracle(&self, images: &[&[Hit]]) -> anyhow::Result<Reference> {
+    fn reference(&self, images: &[&[Hit]]) -> anyhow::Result<Reference> {
         let scene = &self.bench.scene;
-        let size = self.rules.size;
+        let size = self.options.size;
         let rays = self.targets.read_rays(self.gpu, &self.view)?;
         let oracle = Oracle::new(scene);
         let is_small =
             || rays.len() <= COMPARED_WHOLE_PIXELS || scene.len() <= COMPARED_WHOLE_BALLS;
         let is_sparse = || mean_overlap(scene) <= COMPARED_WHOLE_OVERLAP;
-        if self.rules.every_pixel || (is_small() && is_sparse()) {
+        if self.options.every_pixel || (is_small() && is_sparse()) {
             return Ok(Reference::of_every_pixel(size, oracle.first_hits(&rays)));
         }
         let radius = scene.supports().iter().map(|ball| ball.radius).fold(f32::INFINITY, f32::min);
@@ -227,14 +239,14 @@ impl<'a> Arena<'a> {
 
     fn time(
         &self,
-        contenders: &mut [Contender],
+        renderers: &mut [PreparedRenderer],
     ) -> anyhow::Result<Vec<Result<Timing, RenderError>>> {
-        let Rules { sampling, size, along_path, .. } = *self.rules;
+        let Options { sampling, size, along_path, .. } = *self.options;
         let path = if along_path { &self.bench.path[..] } else { &[] };
         let bounds = self.bench.scene.bounds();
         let views = views(&self.bench.camera, path, &bounds, size, sampling.most)?;
         let advance = || self.progress.advance(1);
-        Ok(time_all(self.gpu, contenders, &self.targets, &views, sampling.enough, advance))
+        Ok(time_all(self.gpu, renderers, &self.targets, &views, sampling.enough, advance))
     }
 
     /// What the targets hold, as a PNG.
@@ -245,11 +257,11 @@ impl<'a> Arena<'a> {
         Ok(encode_png(&shaded.image)?)
     }
 
-    fn record(&self, place: usize, outcome: Result<Measured, RenderError>) -> Record {
-        let setting = &self.rules.settings[place];
+    fn record(&self, index: usize, result: Result<Measured, RenderError>) -> Record {
+        let configuration = &self.options.configurations[index];
         let scene = &self.bench.scene;
-        let (width, height) = self.rules.size;
-        let (status, reason, measured) = match outcome {
+        let (width, height) = self.options.size;
+        let (status, reason, measured) = match result {
             Ok(measured) => (Status::Ok, None, Some(measured)),
             Err(error @ RenderError::Incomplete { .. }) => {
                 (Status::Incomplete, Some(error.to_string()), None)
@@ -261,8 +273,8 @@ impl<'a> Arena<'a> {
             balls: scene.len(),
             kernel: scene.kernel().to_string(),
             threshold: scene.threshold(),
-            method: setting.method.name.to_owned(),
-            options: setting.options.clone(),
+            method: configuration.method.name.to_owned(),
+            options: configuration.options.clone(),
             width,
             height,
             adapter: Adapter::from(self.gpu.report()),
@@ -277,25 +289,25 @@ impl<'a> Arena<'a> {
     }
 }
 
-fn unzip(drawings: Vec<Drawing>) -> (Vec<usize>, Vec<Vec<u8>>, Vec<Contender>) {
-    drawings
+fn unzip(frames: Vec<FirstFrame>) -> (Vec<usize>, Vec<Vec<u8>>, Vec<PreparedRenderer>) {
+    frames
         .into_iter()
-        .map(|Drawing { place, contender, shaded }| (place, shaded, contender))
+        .map(|FirstFrame { index, renderer, shaded }| (index, shaded, renderer))
         .collect()
 }
 
 fn measured(
-    contender: &Contender,
+    renderer: &PreparedRenderer,
     timing: Timing,
     accuracy: Accuracy,
     work: Option<WorkPerRay>,
 ) -> Measured {
     let count =
-        |which: fn(&Hit) -> bool| contender.hits.iter().filter(|hit| which(hit)).count() as u64;
+        |which: fn(&Hit) -> bool| renderer.hits.iter().filter(|hit| which(hit)).count() as u64;
     Measured {
-        build_ms: milliseconds(contender.build.structure),
-        upload_bytes: contender.build.upload_bytes,
-        device_bytes: contender.device_bytes(),
+        build_ms: milliseconds(renderer.build.structure),
+        upload_bytes: renderer.build.upload_bytes,
+        device_bytes: renderer.device_bytes(),
         frame_ms: timing.frame_ms,
         passes: timing.passes,
         fallback_pixels: count(|hit| hit.fallback),
@@ -309,7 +321,7 @@ fn remarks(reference: &Reference) -> Vec<String> {
     let mut remarks = Vec::new();
     let rays = reference.truths().len();
     let ambiguous = reference.truths().iter().filter(|truth| truth.is_ambiguous()).count();
-    if is_murky(ambiguous, rays) {
+    if many_are_ambiguous(ambiguous, rays) {
         remarks.push(format!(
             "{ambiguous} of {rays} rays are too close to call: more than one in a thousand."
         ));
@@ -371,16 +383,16 @@ mod tests {
     fn one_that_fails_leaves_the_others_alone() {
         let Some(gpu) = Gpu::for_test() else { return };
         let bench = load("colors-100", &Overrides::default()).expect("known");
-        let rules = Rules {
-            settings: vec![(&UNABLE).into(), (&methods()[0]).into()],
+        let options = Options {
+            configurations: vec![(&UNABLE).into(), (&methods()[0]).into()],
             size: (48, 36),
             sampling: Sampling::exactly(2),
             along_path: true,
             every_pixel: false,
             counts_work: true,
         };
-        let contest = hold(&gpu, &bench, &rules, &()).expect("held");
-        let [unable, able] = &contest.records[..] else { panic!("two records") };
+        let comparison = compare_scene(&gpu, &bench, &options, &()).expect("compared");
+        let [unable, able] = &comparison.records[..] else { panic!("two records") };
         assert_eq!((unable.method.as_str(), unable.status), ("unable", Status::Unsupported));
         assert_eq!(unable.reason.as_deref(), Some("method unable: needs more"));
         assert_eq!((able.method.as_str(), able.status), (methods()[0].name, Status::Ok));
@@ -389,23 +401,23 @@ mod tests {
         assert_eq!(measured.accuracy.rays, 48 * 36);
         assert!(measured.accuracy.oracle_hits > 0);
         assert!(measured.work.is_some_and(|work| work.balls_per_ray > 0.0));
-        assert!(contest.reference.is_some() && contest.pictures.len() == 1);
+        assert!(comparison.reference.is_some() && comparison.pictures.len() == 1);
     }
 
     #[test]
     fn without_any_drawing_there_are_only_reasons() {
         let Some(gpu) = Gpu::for_test() else { return };
         let bench = load("empty", &Overrides::default()).expect("known");
-        let rules = Rules {
-            settings: vec![(&UNABLE).into()],
+        let options = Options {
+            configurations: vec![(&UNABLE).into()],
             size: (4, 3),
             sampling: Sampling::exactly(1),
             along_path: false,
             every_pixel: false,
             counts_work: true,
         };
-        let contest = hold(&gpu, &bench, &rules, &()).expect("held");
-        assert_eq!(contest.records.len(), 1);
-        assert!(contest.reference.is_none() && contest.pictures.is_empty());
+        let comparison = compare_scene(&gpu, &bench, &options, &()).expect("compared");
+        assert_eq!(comparison.records.len(), 1);
+        assert!(comparison.reference.is_none() && comparison.pictures.is_empty());
     }
 }

@@ -2,32 +2,33 @@
 
 use illes_fraglist::Piece;
 
-use super::Setting;
+use super::Configuration;
 use crate::methods::{Method, methods};
 use crate::technique::Technique;
 
 /// All of them, in the order of tables: variants stand behind their method, with a name in which
 /// the option stands behind a plus.
-pub fn entrants() -> Vec<Setting> {
+pub fn stability_configurations() -> Vec<Configuration> {
     let with_variant =
         |method: &'static Method| std::iter::once(method.into()).chain(variant(method));
     methods().iter().flat_map(with_variant).collect()
 }
 
 /// The one option of a method that is tried beside its preset.
-fn variant(method: &'static Method) -> Option<Setting> {
+fn variant(method: &'static Method) -> Option<Configuration> {
     match method.technique {
         Technique::Peeling(preset) => {
             let fine = Technique::Peeling(kanamori_peel::Options { threshold: 1e-6, ..preset });
-            let setting = Setting::with(method, "threshold", "1e-6", fine);
+            let configuration = Configuration::with(method, "threshold", "1e-6", fine);
             let name = format!("{}+fine", method.name);
-            Some(setting.called(&name, "… clipped to 1e-6"))
+            Some(configuration.called(&name, "… clipped to 1e-6"))
         }
         Technique::Fragments(preset) if preset.piece == Piece::Exact => {
             let short = illes_fraglist::Options { array_capacity: 30, ..preset };
-            let setting = Setting::with(method, "array", "30", Technique::Fragments(short));
+            let configuration =
+                Configuration::with(method, "array", "30", Technique::Fragments(short));
             let name = format!("{}+30", method.name);
-            Some(setting.called(&name, "… array of 30"))
+            Some(configuration.called(&name, "… array of 30"))
         }
         _ => None,
     }
@@ -39,10 +40,13 @@ mod tests {
 
     #[test]
     fn no_name_comes_twice() {
-        let all = entrants();
-        for (index, entrant) in all.iter().enumerate() {
-            assert!(all[..index].iter().all(|other| other.name != entrant.name));
-            assert_eq!(entrant.options.is_empty(), entrant.name == entrant.method.name);
+        let all = stability_configurations();
+        for (index, configuration) in all.iter().enumerate() {
+            assert!(all[..index].iter().all(|other| other.name != configuration.name));
+            assert_eq!(
+                configuration.options.is_empty(),
+                configuration.name == configuration.method.name
+            );
         }
         assert!(all.len() > methods().len());
     }

@@ -4,24 +4,25 @@ use fbvh::{Boxes, Classes, Cost, Fitting, Options, Reading, Structure, TraceOpti
 use illes_fraglist::Sort;
 use kanamori_peel::{Clipping, Outline, Registration};
 
-use super::Setting;
+use super::Configuration;
 use crate::methods::{Method, find, methods};
 use crate::technique::Technique;
 
-/// Every setting of a chart of error against time: each method's preset, and each of its knobs
+/// Every configuration of a chart of error against time: each method's preset, and each of its knobs
 /// turned. Knobs that do not bear on a method are not in its list.
-pub fn settings() -> Vec<Setting> {
+pub fn configurations() -> Vec<Configuration> {
     let with_turned =
         |method: &'static Method| std::iter::once(method.into()).chain(turned(method));
     methods().iter().flat_map(with_turned).collect()
 }
 
 /// A few of them, to see that everything works.
-pub fn quick_settings() -> Vec<Setting> {
+pub fn quick_configurations() -> Vec<Configuration> {
     let kept = ["tolerance", "threshold", "array"];
-    let is_kept =
-        |setting: &Setting| setting.options.keys().all(|name| kept.contains(&name.as_str()));
-    settings().into_iter().filter(is_kept).collect()
+    let is_kept = |configuration: &Configuration| {
+        configuration.options.keys().all(|name| kept.contains(&name.as_str()))
+    };
+    configurations().into_iter().filter(is_kept).collect()
 }
 
 /// Ends of knobs at which error is given away for time.
@@ -35,16 +36,16 @@ const CRUDE: &[(&str, &str)] = &[
 
 /// Whom `auto` chooses from: every preset, and the crude ends of the knobs that trade error for
 /// time.
-pub fn candidates() -> Vec<Setting> {
-    let is_crude = |setting: &Setting| {
-        let mut options = setting.options.iter();
+pub fn candidates() -> Vec<Configuration> {
+    let is_crude = |configuration: &Configuration| {
+        let mut options = configuration.options.iter();
         options.all(|(name, value)| CRUDE.contains(&(name.as_str(), value.as_str())))
     };
-    settings().into_iter().filter(is_crude).collect()
+    configurations().into_iter().filter(is_crude).collect()
 }
 
 /// A method with one of its knobs turned, for each position that differs from the preset.
-fn turned(method: &'static Method) -> Vec<Setting> {
+fn turned(method: &'static Method) -> Vec<Configuration> {
     match method.technique {
         Technique::Tree(options, _) => match options.structure {
             Structure::ModifiedBvh => [searches(method, false), leaves(method)].concat(),
@@ -64,19 +65,20 @@ fn tree(
     option: &str,
     value: &str,
     change: impl Fn(&mut Options, &mut TraceOptions),
-) -> Option<Setting> {
+) -> Option<Configuration> {
     let Technique::Tree(preset, preset_trace) = method.technique else { return None };
     let (mut options, mut trace) = (preset, preset_trace);
     change(&mut options, &mut trace);
     let is_preset = options == preset && trace == preset_trace;
-    (!is_preset).then(|| Setting::with(method, option, value, Technique::Tree(options, trace)))
+    (!is_preset)
+        .then(|| Configuration::with(method, option, value, Technique::Tree(options, trace)))
 }
 
 /// How closely the secant search closes in (section 3), and how the leaf test is read.
-fn searches(method: &'static Method, has_readings: bool) -> Vec<Setting> {
+fn searches(method: &'static Method, has_readings: bool) -> Vec<Configuration> {
     let tolerances =
         [("1e-1", 1e-1), ("1e-2", 1e-2), ("1e-3", 1e-3), ("1e-4", 1e-4), ("1e-6", 1e-6)];
-    let mut settings: Vec<_> = tolerances
+    let mut configurations: Vec<_> = tolerances
         .into_iter()
         .filter_map(|(name, tolerance)| {
             tree(method, "tolerance", name, |_, trace| trace.tolerance = tolerance)
@@ -84,13 +86,13 @@ fn searches(method: &'static Method, has_readings: bool) -> Vec<Setting> {
         .collect();
     if has_readings {
         let literal = |_: &mut Options, trace: &mut TraceOptions| trace.reading = Reading::Literal;
-        settings.extend(tree(method, "reading", "literal", literal));
+        configurations.extend(tree(method, "reading", "literal", literal));
     }
-    settings
+    configurations
 }
 
 /// When a node is a leaf.
-fn leaves(method: &'static Method) -> Vec<Setting> {
+fn leaves(method: &'static Method) -> Vec<Configuration> {
     let sizes = [("4", 4), ("16", 16)];
     let costs = [("4", 4.0), ("96", 96.0)];
     let sizes = sizes.into_iter().filter_map(|(name, size)| {
@@ -103,7 +105,7 @@ fn leaves(method: &'static Method) -> Vec<Setting> {
 }
 
 /// Heuristic, fitting and discarding: sections 5.1 and 5.3.
-fn fitted(method: &'static Method) -> Vec<Setting> {
+fn fitted(method: &'static Method) -> Vec<Configuration> {
     let fitting = |boxes, discard_up_to| Structure::Fitted(Fitting { boxes, discard_up_to });
     let structures = [
         ("boxes", "cut", fitting(Boxes::Cut, 0)),
@@ -119,7 +121,7 @@ fn fitted(method: &'static Method) -> Vec<Setting> {
 }
 
 /// When a box that may hold surface is a leaf.
-fn certified(method: &'static Method, preset: Classes) -> Vec<Setting> {
+fn certified(method: &'static Method, preset: Classes) -> Vec<Configuration> {
     let sizes = [("8", 8), ("12", 12), ("24", 24), ("48", 48)];
     let sides = [("1/4", 0.25), ("1", 1.0)];
     let sizes = sizes.map(|(name, leaf_size)| ("leaf size", name, Classes { leaf_size, ..preset }));
@@ -136,7 +138,7 @@ fn certified(method: &'static Method, preset: Classes) -> Vec<Setting> {
 
 /// Threshold and way of clipping, length of lists, and what bears on time alone: sections 4.2 and
 /// 5.1 to 5.4.
-fn peeling(method: &'static Method, preset: kanamori_peel::Options) -> Vec<Setting> {
+fn peeling(method: &'static Method, preset: kanamori_peel::Options) -> Vec<Configuration> {
     use kanamori_peel::Options;
     let knobs = [
         ("threshold", "1e-1", Options { threshold: 1e-1, ..preset }),
@@ -155,14 +157,14 @@ fn peeling(method: &'static Method, preset: kanamori_peel::Options) -> Vec<Setti
         ("tiles", "16", Options { tiles: 16, ..preset }),
         ("registration", "device", Options { registration: Registration::Device, ..preset }),
     ];
-    let setting = |(option, value, options)| {
-        Setting::with(method, option, value, Technique::Peeling(options))
+    let configuration = |(option, value, options)| {
+        Configuration::with(method, option, value, Technique::Peeling(options))
     };
-    knobs.map(setting).into()
+    knobs.map(configuration).into()
 }
 
 /// Length of the local array, and where balls are sorted.
-fn fragment_lists(method: &'static Method, preset: illes_fraglist::Options) -> Vec<Setting> {
+fn fragment_lists(method: &'static Method, preset: illes_fraglist::Options) -> Vec<Configuration> {
     use illes_fraglist::Options;
     let knobs = [
         ("array", "6", Options { array_capacity: 6, ..preset }),
@@ -170,15 +172,15 @@ fn fragment_lists(method: &'static Method, preset: illes_fraglist::Options) -> V
         ("array", "24", Options { array_capacity: 24, ..preset }),
         ("sort", "device", Options { sort: Sort::Device, ..preset }),
     ];
-    let setting = |(option, value, options)| {
-        Setting::with(method, option, value, Technique::Fragments(options))
+    let configuration = |(option, value, options)| {
+        Configuration::with(method, option, value, Technique::Fragments(options))
     };
-    knobs.map(setting).into()
+    knobs.map(configuration).into()
 }
 
 /// The presets that growth and density are measured with.
-pub fn presets(names: &[&str]) -> Vec<Setting> {
-    names.iter().filter_map(|name| find(name)).map(Setting::preset).collect()
+pub fn presets(names: &[&str]) -> Vec<Configuration> {
+    names.iter().filter_map(|name| find(name)).map(Configuration::preset).collect()
 }
 
 #[cfg(test)]
@@ -189,20 +191,20 @@ mod tests {
 
     #[test]
     fn every_method_has_its_preset_and_no_setting_comes_twice() {
-        for settings in [settings(), quick_settings(), candidates()] {
-            let names: BTreeSet<_> = settings.iter().map(Setting::to_string).collect();
-            assert_eq!(names.len(), settings.len());
+        for configurations in [configurations(), quick_configurations(), candidates()] {
+            let names: BTreeSet<_> = configurations.iter().map(Configuration::to_string).collect();
+            assert_eq!(names.len(), configurations.len());
             for method in methods() {
                 assert!(names.contains(method.name), "{}", method.name);
             }
-            for setting in &settings {
-                assert_eq!(setting.renderer(false).name(), setting.method.name);
+            for configuration in &configurations {
+                assert_eq!(configuration.renderer(false).name(), configuration.method.name);
             }
         }
-        assert!(settings().len() > quick_settings().len());
+        assert!(configurations().len() > quick_configurations().len());
         for crude in CRUDE {
-            let has = |setting: &Setting| {
-                setting
+            let has = |configuration: &Configuration| {
+                configuration
                     .options
                     .iter()
                     .any(|(name, value)| (name.as_str(), value.as_str()) == *crude)

@@ -5,10 +5,10 @@ use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Scene, View};
 
 use super::choice::Errors;
-use crate::measure::Contender;
+use crate::measure::PreparedRenderer;
 
 /// A view with the truth about some of its rays.
-pub struct Stage<'a> {
+pub struct ReferenceView<'a> {
     /// What is drawn.
     pub view: &'a View,
     /// Where it is drawn.
@@ -18,7 +18,7 @@ pub struct Stage<'a> {
     mean_radius: f64,
 }
 
-impl<'a> Stage<'a> {
+impl<'a> ReferenceView<'a> {
     /// Asks the oracle about at most so many rays, spread evenly.
     ///
     /// # Errors
@@ -42,9 +42,9 @@ impl<'a> Stage<'a> {
         Ok(Self { view, targets, truths, mean_radius: mean_radius(scene) })
     }
 
-    /// How far off the contender's last picture is, which is to be of this view.
-    pub fn errors(&self, contender: &Contender) -> Errors {
-        let pairs = self.truths.iter().map(|(pixel, truth)| (truth, &contender.hits[*pixel]));
+    /// How far off the renderer's last picture is, which is to be of this view.
+    pub fn errors(&self, renderer: &PreparedRenderer) -> Errors {
+        let pairs = self.truths.iter().map(|(pixel, truth)| (truth, &renderer.hits[*pixel]));
         Errors::of(pairs, self.mean_radius)
     }
 }
