@@ -1,4 +1,4 @@
-//! Everything on the device that belongs to a scene.
+//! The balls of a scene on the adapter.
 
 use metaball_core::gpu::{Gpu, RenderError, SceneBuffers, bind_group};
 use metaball_core::{Camera, Scene, Support};
@@ -14,7 +14,7 @@ pub(crate) struct Balls {
     supports: Vec<Support>,
     ball_of_rank: wgpu::Buffer,
     core_radii: wgpu::Buffer,
-    /// Where balls are sorted on the device.
+    /// Where balls are sorted on the adapter.
     pub(crate) sort_buffers: Option<SortBuffers>,
     /// Group 2 of all passes but the sort.
     pub(crate) bind_group: wgpu::BindGroup,
@@ -44,7 +44,7 @@ impl Balls {
         let count = scene.len() as u32;
         let sort_buffers = match sort {
             Sort::Host => None,
-            Sort::Device => Some(SortBuffers::new(gpu, layouts, count, &ball_of_rank)?),
+            Sort::Adapter => Some(SortBuffers::new(gpu, layouts, count, &ball_of_rank)?),
         };
         Ok(Self {
             scene: SceneBuffers::new(gpu, scene)?,
@@ -61,18 +61,18 @@ impl Balls {
         self.supports.len() as u32
     }
 
-    /// Bytes sent to the device.
+    /// Bytes sent to the adapter.
     pub(crate) fn upload_bytes(&self) -> u64 {
         self.scene.bytes() + self.core_radii.size()
     }
 
-    /// Bytes on the device.
+    /// Bytes on the adapter.
     pub(crate) fn device_bytes(&self) -> u64 {
         let sort = self.sort_buffers.as_ref().map_or(0, SortBuffers::bytes);
         self.upload_bytes() + self.ball_of_rank.size() + sort
     }
 
-    /// Sorts on the host, and sends the order to the device.
+    /// Sorts on the host, and sends the order to the adapter.
     pub(crate) fn sort(&self, gpu: &Gpu, camera: &Camera) -> Result<(), RenderError> {
         let order = by_effective_distance(&self.supports, camera);
         let bytes = bytemuck::cast_slice(&order);

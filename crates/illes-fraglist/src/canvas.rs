@@ -1,4 +1,4 @@
-//! Everything on the device that belongs to pictures of one size.
+//! What the adapter keeps for pictures of one size.
 
 use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError, Resource, Targets, TileBins, bind_group};
@@ -17,7 +17,7 @@ pub(crate) struct Progress {
     pub(crate) fallback: u32,
 }
 
-/// How much a canvas can hold.
+/// What a canvas holds at most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Capacities {
     /// List nodes.
@@ -107,7 +107,7 @@ impl Canvas {
         }
     }
 
-    /// Bytes on the device: 28 a pixel, the nodes, and what the tiles take.
+    /// Bytes on the adapter: 28 a pixel, the nodes, and what the tiles take.
     pub(crate) fn bytes(&self) -> u64 {
         let textures = 8 * u64::from(self.width) * u64::from(self.height);
         let tiles = self.tiles.as_ref().map_or(0, |tiles| tiles.bins.bytes());

@@ -13,40 +13,41 @@
 //!
 //! | label | what |
 //! | --- | --- |
-//! | `cpu:sort` or `sort` | balls by *effective distance* \|p − e\| − R, in parallel on the host, or by [`Sort::Device`] |
+//! | `cpu:sort` or `sort` | balls by *effective distance* \|p − e\| − R, in parallel on the host, or by [`Sort::Adapter`] |
 //! | `cores` | distance to the nearest *core*: the sphere in which a ball alone reaches the threshold |
 //! | `gather` | each ball's rank into the lists of the pixels whose rays meet its support before the core |
-//! | `cast` | lists into separators in a short array, from which those in the *safe zone*, nearer than any ball to come, are passed one by one (section 6) |
-//! | `resume` | the same again, for rays that had to wait |
+//! | `cast` | lists into separators in a short array, of which those in the *safe zone*, nearer than any ball that follows in the list, are passed one by one (section 6) |
+//! | `resume` | the same for rays whose search exceeded the budget of one dispatch |
 //!
 //! # Changes versus the paper
-//! *Equation (2)* as printed puts the cubic's rise in the wrong place: m must be m − Q. The table of
-//! Δw in section 4 has γ(s) where γ(m) is meant.
+//! *Equation (2)* as printed has the cubic rise from the wrong t: m must be m − Q. The table of Δw in
+//! section 4 has γ(s) where γ(m) is meant: γ vanishes at both ends.
 //!
 //! *No running sum.* The printed coefficients of (s³, s², s, 1) are wrong by 4 % of a ball ten radii
-//! from the eye, by half a ball at thirty; and shifted along the ray they drift with its length. Here
-//! the list of balls active between two separators runs, and each piece is made anew from their
-//! values and slopes at its ends, in Bernstein form: right to 1.3e-6 anywhere.
-//! [`Piece::AbsoluteCubic`] is the printed form, to show the difference.
+//! from the eye, by half a ball at thirty. Shifted from separator to separator they drift with the path,
+//! since a ball's three increments cancel only where its f32 separators are exactly Q apart. Here the
+//! balls active between two separators are kept, and each piece is made from their values and slopes at
+//! its ends, in Bernstein form: right to 1.3e-6 anywhere. [`Piece::AbsoluteCubic`] is the printed form,
+//! to show the difference.
 //!
 //! *The core is a hit.* Some kernels' cubics lie below the kernel, and a ray clipped at the core would
-//! never see a root: with the quartic every isolated ball would vanish. A ray that reaches a core
-//! without a root hits there; [`ListStats::core_hits`] counts them.
+//! have no root: with the quartic every isolated ball would vanish. A ray that reaches a core without a
+//! root hits there, since the core lies in the solid; [`ListStats::core_hits`] counts them.
 //!
 //! *Order is restored, not assumed.* Balls are drawn back to front, but no WebGPU device promises that
-//! fragments arrive so. Lists hold ranks, and a natural merge sort of the links makes sure: one walk
+//! fragments arrive so. Lists hold ranks, and a natural merge sort of the links orders them: one walk
 //! for a list that is in order.
 //!
 //! *An eye inside supports* starts with the sum of their segments, as section 4 has it; step 1 of
 //! section 6 does not.
 //!
-//! *Pools grow.* A frame that ran out of list nodes says how many it needed and is drawn again.
-//! *Rays can wait*: see `illes_fraglist/budget.wgsl`.
+//! *Pools grow.* A frame that ran out of list nodes reports how many it needed and is drawn again.
+//! *Rays can wait* for the next dispatch: see `shaders/wgsl/illes_fraglist/budget.wgsl`.
 //!
-//! *Variants of our own*: [`Piece::Robust`] searches a ray without the array once that has no room,
-//! by upper bounds of the field over stretches that each take one walk along the list;
-//! [`Gather::Tiles`] gathers in compute, balls into tiles of the picture (pass `bin`: count, prefix
-//! sum, fill) and tiles into cores and lists of pixels.
+//! *Variants of ours*: [`Piece::Robust`] searches a ray without the array once that is full, by upper
+//! bounds of the field over intervals of the ray, one walk along the list for each; [`Gather::Tiles`]
+//! gathers in compute, balls into tiles of the picture (pass `bin`: count, prefix sum, fill) and tiles
+//! into cores and lists of pixels.
 //!
 //! # Practice
 //! The published cubic is not the kernel. In parts of a ball's value at the midpoint of its chord the
@@ -55,12 +56,13 @@
 //! [`Piece::Robust`] are within rounding, for kernels that are polynomials of degree up to six along
 //! a ray; other kernels they refuse.
 //!
-//! More balls over one point than the array has room for ([`Options::array_capacity`]) make the published
-//! method pass separators that are not safe; such pixels are marked as fallback.
+//! Where more separators are active than the array holds ([`Options::array_capacity`]) the published
+//! method passes some that are not safe; such pixels are marked as fallback.
 //!
-//! A pixel's list may have 6,144 balls before the core, and a tile 120,000; more is refused in words,
-//! as is a pool that exceeds what the adapter binds: 16.7 million nodes where that is 128 MiB. A picture
-//! takes 28 bytes a pixel and 8 a list node; a scene 24 a ball, and 16 more to be sorted on the device.
+//! A pixel's list may have [`LIST_CAPACITY`] balls before the core, and a tile [`TILE_CAPACITY`]; more is
+//! refused with the number, as is a pool that exceeds what the adapter binds: 16.7 million nodes where
+//! that is 128 MiB. A picture takes 28 bytes a pixel and 8 a list node; a scene 24 a ball, and 16 more to
+//! be sorted on the adapter.
 //!
 //! ```no_run
 //! use illes_fraglist::{Options, Piece, Renderer};

@@ -13,7 +13,7 @@ pub(crate) struct Node {
     pub(crate) next: u32,
 }
 
-/// What stands before the nodes: the head of WGSL's `Pool` of
+/// What the pool has before the nodes: the head of WGSL's `Pool` of
 /// `shaders/wgsl/illes_fraglist/lists.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -59,7 +59,7 @@ impl Lists {
         encoder.clear_buffer(&self.pool, 0, Some(size_of::<PoolHead>() as u64));
     }
 
-    /// Bytes on the device.
+    /// Bytes on the adapter.
     pub(crate) fn bytes(&self) -> u64 {
         self.heads.size() + self.pool.size()
     }

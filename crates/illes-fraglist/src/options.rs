@@ -12,8 +12,8 @@ pub enum Piece {
     AbsoluteCubic,
     /// The field itself, of degree four or six.
     Exact,
-    /// The same; and where the local array has no room for a ray's separators, the rest of the ray is
-    /// searched without it, by bounds over stretches of the list. Not published.
+    /// The same; and where a ray has more separators than the local array holds, the rest of the ray is
+    /// searched without it, by upper bounds of the field over intervals of the ray. Not published.
     Robust,
 }
 
@@ -22,21 +22,21 @@ pub enum Piece {
 pub enum Gather {
     /// By rasterising a rectangle a ball, as published.
     Raster,
-    /// In compute, by way of tiles of the picture. Not published: for graphics cards with little
-    /// raster hardware, where the published gathering would measure the chip.
+    /// In compute, by tiles of the picture. Not published: for adapters with little raster hardware,
+    /// where the published gathering would measure that hardware.
     Tiles,
 }
 
 /// Where balls are sorted by effective distance, once a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Sort {
-    /// On the host, in parallel, as published; the order is sent to the device.
+    /// On the host, in parallel, as published; the order is sent to the adapter.
     Host,
-    /// On the device, by radix sort. Not published.
-    Device,
+    /// On the adapter, by radix sort. Not published.
+    Adapter,
 }
 
-/// Settings of a renderer.
+/// How the method works; the default is the published method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
     /// The polynomial between two separators.
@@ -48,26 +48,27 @@ pub struct Options {
     /// Separators that a ray's local array holds, from 3 to [`ARRAY_CAPACITY`]; others are taken as the
     /// nearest of these.
     pub array_capacity: u32,
-    /// List nodes that the pool begins with, 8 bytes each. Too few cost a frame drawn again.
+    /// List nodes that the first pool holds, 8 bytes each. With too few, a frame is drawn again.
     pub first_nodes: u32,
 }
 
 /// The largest [`Options::array_capacity`], and the default: separators of a ray's local array as it is
-/// compiled, `MOST` of `illes_fraglist/records.wgsl`. Section 6 has "surely less than 100"; a ball has
+/// compiled, `MOST` of `shaders/wgsl/illes_fraglist/records.wgsl`. Section 6 has "surely less than 100"; a ball has
 /// three.
 pub const ARRAY_CAPACITY: u32 = 96;
 
 /// The most balls that a ray may meet before its core: walks along its list must stay within the
-/// iterations of software Vulkan. `LONGEST_LIST` of `illes_fraglist/budget.wgsl`.
+/// iterations of software Vulkan. `LONGEST_LIST` of `shaders/wgsl/illes_fraglist/budget.wgsl`.
 pub const LIST_CAPACITY: u32 = 6_144;
 
 /// The most balls over a tile of the picture with [`Gather::Tiles`], bounded as [`LIST_CAPACITY`] is.
-/// `MOST_ENTRIES` of `illes_fraglist/collect.wgsl`.
+/// `MOST_ENTRIES` of `shaders/wgsl/illes_fraglist/collect.wgsl`.
 pub const TILE_CAPACITY: u32 = 120_000;
 
 /// How far behind the root of a piece a hit may be, in parts of the piece between two separators,
 /// which is no longer than a radius; rounding aside. The width at which the root finders of
-/// `illes_fraglist/cubic_root.wgsl` and `bernstein.wgsl` end.
+/// `shaders/wgsl/illes_fraglist/cubic_root.wgsl` and `shaders/wgsl/illes_fraglist/polynomial_root.wgsl`
+/// end.
 pub const ROOT_TOLERANCE: f64 = 4e-7;
 
 impl Options {
@@ -105,7 +106,7 @@ impl Piece {
         matches!(self, Self::Exact | Self::Robust)
     }
 
-    /// Whether this piece can stand for the kernel; if not, why.
+    /// Why this piece cannot represent the kernel; `None` where it can.
     pub(crate) fn refusal(self, kernel: Kernel) -> Option<String> {
         if !self.is_exact() || exact_degree(kernel).is_some() {
             return None;

@@ -8,11 +8,11 @@ use crate::layouts::Layouts;
 use crate::options::{ARRAY_CAPACITY, Options, Sort, exact_degree};
 use crate::sort::RadixSort;
 
-/// The sort on the device, the gathering, and `shaders/wgsl/illes_fraglist/cast.wgsl`.
+/// The sort on the adapter, the gathering, and `shaders/wgsl/illes_fraglist/cast.wgsl`.
 pub(crate) struct Pipelines {
     pub(crate) specialized: Specialization,
     pub(crate) layouts: Layouts,
-    /// Where balls are sorted on the device.
+    /// Where balls are sorted on the adapter.
     pub(crate) sort: Option<RadixSort>,
     pub(crate) gather: GatherPasses,
     pub(crate) cast: wgpu::ComputePipeline,
@@ -27,7 +27,7 @@ impl Pipelines {
         let layouts = Layouts::new(gpu, &specialized);
         let sort = match options.sort {
             Sort::Host => None,
-            Sort::Device => Some(RadixSort::new(gpu, &specialized, &layouts)?),
+            Sort::Adapter => Some(RadixSort::new(gpu, &specialized, &layouts)?),
         };
         let gather = GatherPasses::new(gpu, &specialized, &layouts, options.gather)?;
         let Layouts { frame, scene, balls, lists, .. } = &layouts;

@@ -21,7 +21,7 @@ pub struct Renderer {
     name: &'static str,
     options: Options,
     counting: bool,
-    /// How much the next canvas can hold.
+    /// What the next canvas holds at most.
     capacities: Capacities,
     /// Dispatches of the cast after the first.
     resumes: u32,

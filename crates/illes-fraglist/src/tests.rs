@@ -12,12 +12,12 @@ use crate::{Options, Renderer, Sort};
 /// all but the root is exact, and the root is rounded the same way wherever it is right to half a
 /// unit. Where an adapter's is not, the order may differ where two distances nearly agree.
 #[test]
-fn the_device_sorts_as_the_host_does() {
+fn the_adapter_sorts_as_the_host_does() {
     let Some(gpu) = Gpu::for_test() else { return };
     let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y, 60.0).expect("legal");
     let view = View::new(camera, 8, 6).expect("legal");
     let targets = Targets::new(&gpu, 8, 6, false, false).expect("small");
-    let options = Options { sort: Sort::Device, ..Options::default() };
+    let options = Options { sort: Sort::Adapter, ..Options::default() };
     for count in [1_u32, 2, 1023, 1025, 9000] {
         let balls = (0..count).map(|index| {
             let seed = index - u32::from(index % 3 == 2);

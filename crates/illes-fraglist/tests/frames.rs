@@ -37,7 +37,7 @@ fn view(distance: f32, height: f32) -> View {
 }
 
 /// `count` balls in a cube of side 2, from a fixed sequence.
-fn crowd(count: u32, kernel: Kernel, threshold: f32) -> Scene {
+fn overlapping(count: u32, kernel: Kernel, threshold: f32) -> Scene {
     let coordinate = |index: u32, axis: u32| {
         let hash = (3 * index + axis + 1).wrapping_mul(0x9e37_79b9) >> 8;
         hash as f32 / (1 << 23) as f32 - 1.0
@@ -56,7 +56,7 @@ fn cubic(kernel: i64) -> Kernel {
 #[test]
 fn a_pool_of_any_size_grows_to_the_same_picture() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let (scene, view) = (crowd(40, Kernel::Wyvill, 0.1), view(5.0, 4.0));
+    let (scene, view) = (overlapping(40, Kernel::Wyvill, 0.1), view(5.0, 4.0));
     let ample = draw(&gpu, &scene, &view, Options::default());
     assert!(ample.nodes > 1000 && ample.hits.iter().any(Hit::is_hit));
     for first_nodes in [0, 1, 100, ample.nodes - 1, ample.nodes] {
@@ -72,7 +72,7 @@ fn a_pool_of_any_size_grows_to_the_same_picture() {
 #[test]
 fn every_chord_is_in_a_list() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let scene = crowd(40, Kernel::Wyvill, 100.0);
+    let scene = overlapping(40, Kernel::Wyvill, 100.0);
     for view in [view(5.0, 4.0), view(0.3, 1.0)] {
         for gather in [Gather::Raster, Gather::Tiles] {
             let picture = draw(&gpu, &scene, &view, Options { gather, ..Options::default() });
@@ -104,7 +104,7 @@ fn meets(ray: &Ray, ball: &Metaball, margin: f64) -> bool {
 #[test]
 fn the_compute_twin_draws_the_same_picture() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let (scene, view) = (crowd(20, Kernel::QUARTIC, 0.05), view(5.0, 4.0));
+    let (scene, view) = (overlapping(20, Kernel::QUARTIC, 0.05), view(5.0, 4.0));
     let published = draw(&gpu, &scene, &view, Options::default());
     let twin = draw(&gpu, &scene, &view, Options { gather: Gather::Tiles, ..Options::default() });
     assert!(published.core_hits > 10, "{} core hits: no test of cores", published.core_hits);
@@ -118,7 +118,7 @@ fn the_compute_twin_draws_the_same_picture() {
 #[test]
 fn a_small_array_marks_what_it_may_spoil_and_nothing_else() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let (scene, view) = (crowd(60, Kernel::Wyvill, 0.3), view(5.0, 4.0));
+    let (scene, view) = (overlapping(60, Kernel::Wyvill, 0.3), view(5.0, 4.0));
     let ample = draw(&gpu, &scene, &view, Options::default());
     assert!(ample.hits.iter().all(|hit| !hit.fallback));
     let mut before = usize::MAX;
@@ -144,7 +144,7 @@ fn a_small_array_marks_what_it_may_spoil_and_nothing_else() {
 #[test]
 fn the_robust_variant_is_right_with_any_array() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let (scene, view) = (crowd(60, Kernel::Wyvill, 0.3), view(5.0, 4.0));
+    let (scene, view) = (overlapping(60, Kernel::Wyvill, 0.3), view(5.0, 4.0));
     let robust = Options { piece: Piece::Robust, ..Options::default() };
     let ample = draw(&gpu, &scene, &view, robust);
     for array_capacity in [3, 5] {
@@ -158,7 +158,7 @@ fn the_robust_variant_is_right_with_any_array() {
     }
 }
 
-/// Ten balls at one place are one ball of ten times the strength: every rank has its node, although
+/// Ten coincident balls are one ball of ten times the strength: every rank has its node, although
 /// all distances are equal. The sums differ by ten roundings, and the roots by their tolerance.
 #[test]
 fn equal_distances_have_an_order() {
@@ -178,7 +178,7 @@ fn equal_distances_have_an_order() {
     assert!(differing <= one.core_hits as usize, "{differing} pixels differ");
 }
 
-/// Six thousand weak balls at one place are one of six thousand times the strength. Sums of so many
+/// Six thousand coincident weak balls are one of six thousand times the strength. Sums of so many
 /// equal terms err by 2⁻²⁴ of the sum a term at worst, 4e-4, where the slope is above one in a radius.
 #[test]
 fn lists_of_many_thousands_are_cast() {
@@ -241,7 +241,7 @@ fn an_eye_in_a_core_is_inside() {
 #[test]
 fn the_cubic_reaches_the_threshold_at_any_distance() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let scene = crowd(40, cubic(3), 0.12);
+    let scene = overlapping(40, cubic(3), 0.12);
     for distance in [10.0, 1e3, 1e5] {
         let picture = draw(&gpu, &scene, &view(distance, 4.0), Options::default());
         let mut measured = 0;
@@ -263,9 +263,9 @@ fn the_cubic_reaches_the_threshold_at_any_distance() {
 fn the_cubic_meets_its_defining_conditions() {
     let ball = Metaball { center: Vec3::new(0.2, -0.1, 0.3), radius: 1.5, strength: 0.7 };
     let scene = Scene::new([ball], Kernel::Wyvill, 0.5).expect("a legal scene");
-    for aim in [Vec3::new(0.2, -0.1, 0.0), Vec3::new(0.9, 0.4, 0.0), Vec3::new(1.5, 0.0, 0.0)] {
+    for target in [Vec3::new(0.2, -0.1, 0.0), Vec3::new(0.9, 0.4, 0.0), Vec3::new(1.5, 0.0, 0.0)] {
         let eye = Vec3::new(0.0, 0.0, 4.0);
-        let ray = Ray::new(eye, (aim - eye).normalize());
+        let ray = Ray::new(eye, (target - eye).normalize());
         let direction = ray.direction.as_dvec3();
         let offset = ball.center.as_dvec3() - eye.as_dvec3();
         let middle = offset.dot(direction) / direction.length_squared();
@@ -286,12 +286,12 @@ fn the_cubic_meets_its_defining_conditions() {
 }
 
 /// The printed Δw, with γ at the midpoint: two radii from the eye they still have their digits. In
-/// f32, terms of the size of γ·(m/Q)³, some hundred γ of 0.1 at most, cancel: 1e-4 with room to
-/// spare; the exact kernel is off by up to 9 % of a ball.
+/// f32, terms of the size of γ·(m/Q)³, some hundred γ of 0.1 at most, cancel: 1e-4 with a
+/// margin; the exact kernel is off by up to 9 % of a ball.
 #[test]
 fn the_printed_coefficients_are_the_same_cubic() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let scene = crowd(40, cubic(3), 0.12);
+    let scene = overlapping(40, cubic(3), 0.12);
     let near = view(2.2, 2.0);
     let options = Options { piece: Piece::AbsoluteCubic, ..Options::default() };
     let picture = draw(&gpu, &scene, &near, options);

@@ -1,4 +1,4 @@
-//! What the method keeps of a scene on the device.
+//! The balls of a scene on the adapter.
 
 use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError, SceneBuffers, bind_group};
@@ -7,23 +7,24 @@ use metaball_core::{Aabb, Scene, View};
 use crate::layouts::Layouts;
 use crate::options::MOST_LIST_CAPACITY;
 
-/// Balls of a workgroup of the passes over balls: `LANES` of `arrange.wgsl`.
+/// Balls of a workgroup of the passes over balls: `LANES` of
+/// `shaders/wgsl/kanamori_peel/arrange.wgsl`.
 const LANES: u32 = 256;
 
 /// The most balls of a scene: targets keep indices as f32, exact up to 2²⁴, and one loop of
-/// `kanamori_peel/register.wgsl` goes over their workgroups, of 65,535 iterations at most on software
+/// `shaders/wgsl/kanamori_peel/register.wgsl` goes over their workgroups, of 65,535 iterations at most on software
 /// Vulkan.
 pub const MOST_BALLS: usize = 65_000 * LANES as usize;
 
-/// WGSL's `Peeling` of `frame.wgsl`.
+/// Constants of a frame: WGSL's `Peeling` of `shaders/wgsl/kanamori_peel/frame.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(crate) struct Peeling {
-    /// A power of two, 1/scene unit.
+    /// Factor from distance to depth, a power of two, 1/scene unit.
     pub(crate) depth_scale: f32,
 }
 
-/// A ball on the picture: WGSL's `Placed` of `placed.wgsl`.
+/// A ball on the picture: WGSL's `Placed` of `shaders/wgsl/kanamori_peel/placed.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(crate) struct Placed {
@@ -37,7 +38,7 @@ pub(crate) struct Placed {
     pub(crate) padding: u32,
 }
 
-/// WGSL's `Arranged` of `arranged.wgsl`.
+/// Which balls are drawn: WGSL's `Arranged` of `shaders/wgsl/kanamori_peel/arranged.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(crate) struct Arranged {
@@ -45,9 +46,9 @@ pub(crate) struct Arranged {
     pub(crate) in_view: u32,
     /// Those of them that are drawn.
     pub(crate) drawn: u32,
-    /// Balls around the eye.
+    /// Balls whose supports hold the eye.
     pub(crate) around: u32,
-    /// The first of them.
+    /// Indices of the first of them.
     pub(crate) around_balls: [u32; MOST_LIST_CAPACITY as usize],
 }
 
@@ -101,7 +102,7 @@ impl Balls {
         })
     }
 
-    /// Bytes on the device beside the scene's own.
+    /// Bytes on the adapter beside the scene's own.
     pub(crate) fn own_bytes(&self) -> u64 {
         self.own_bytes
     }

@@ -1,17 +1,22 @@
 //! What the paper measures itself against (section 6): the method of Nishita and Nakamae (1994) on
 //! the CPU, with a hierarchy for its rays, four spheres at a time, on all threads.
 //!
+//! # Theory
 //! Each ray is intersected with the effective spheres of a hierarchy that was split in the middle;
 //! the points at which it enters and leaves them are sorted; between each two the field is one
-//! polynomial, which Bézier clipping searches for its first root (section 3). Needs no adapter.
+//! polynomial, which Bézier clipping searches for its first root (section 3).
 //!
-//! # Choices
-//! Spheres are met four at a time in f32, with room for its rounding; chords, polynomials and roots
-//! are f64. The nearest kernel sphere ends the traversal, as it ends the peeling of section 5.2: the
-//! paper does not say so of its CPU version, which without it would lose in dense scenes for no
-//! reason. Control points come from the polar form of a ball's squared distance, which is appendix A
-//! clipped to the interval without de Casteljau's steps. Lists have no limit and nothing is lost where
-//! points coincide, so that answers are right up to the threshold of clipping.
+//! # Changes versus the paper
+//! Spheres are tested four at a time in f32, with a margin for its rounding; chords, polynomials and
+//! roots are f64. The nearest kernel sphere ends the traversal, as it ends the peeling of section 5.2:
+//! the paper does not say so of its CPU version, which without it would be slow in dense scenes for no
+//! reason. Control points are values of the polar form of a ball's squared distance: appendix A clipped
+//! to the interval without de Casteljau's steps.
+//!
+//! # Practice
+//! Needs no adapter. Lists have no capacity to exceed and coincident points are all kept, so that answers
+//! are right up to the threshold of clipping, in parts of an interval. Perlin's kernel is no polynomial
+//! along a ray and is refused.
 
 mod bernstein;
 mod chord;
@@ -36,7 +41,7 @@ pub struct Baseline<'a> {
     threshold: f64,
 }
 
-/// What became of rays, and where the time went.
+/// Hits of rays, and the time and work that they took.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
     /// t of each ray's first surface point: 0 where it starts inside, infinite where there is none.
@@ -45,11 +50,11 @@ pub struct Traced {
     pub traversal: Duration,
     /// Time for the isosurface tests, summed over threads.
     pub isosurface: Duration,
-    /// Intervals in which Bézier clipping was asked for a root.
+    /// Intervals that Bézier clipping searched.
     pub searches: u64,
     /// Its iterations in all.
     pub iterations: u64,
-    /// The most iterations that one search took.
+    /// The most iterations of one search.
     pub most_iterations: u64,
 }
 
@@ -63,7 +68,7 @@ pub struct NoPolynomial {
     pub found: Kernel,
 }
 
-/// Rays whose two phases are timed together: clocks cost time, too.
+/// Rays whose two phases are timed together: reading a clock takes time, too.
 const RAYS_PER_TASK: usize = 64;
 
 impl<'a> Baseline<'a> {

@@ -100,7 +100,7 @@ impl Layers {
         })
     }
 
-    /// Bytes on the device.
+    /// Bytes on the adapter.
     pub(crate) fn bytes(&self) -> u64 {
         self.bytes
     }

@@ -4,7 +4,7 @@
 //! # Theory
 //! Along a ray the set of balls that can contribute changes only where the ray enters or leaves a
 //! support ("effective sphere"). Depth peeling finds these points one by one from front to back,
-//! for all rays at once (section 4.1). Each ray keeps the list of balls it is inside, toggled by
+//! for all rays at once (section 4.1). Each ray keeps the list of balls that hold its point, toggled by
 //! the index that each layer brings (section 4.2). In the interval between two points the field is
 //! one polynomial: of a single ball, whose surface is a sphere ("kernel sphere"), or a sum of
 //! several, which in Bernstein form is searched by Bézier clipping (section 3, appendix A). The
@@ -14,15 +14,15 @@
 //!
 //! | pass | what | section |
 //! | --- | --- | --- |
-//! | `place` | a rectangle for each ball, on the device | 5.1, appendix B |
-//! | `kernel spheres`, `seen` | depth of the kernel spheres; a flag for each ball seen before it | 5.2 |
+//! | `place` | a rectangle around each ball on the picture | 5.1, appendix B |
+//! | `kernel spheres`, `seen` | depth of the kernel spheres; a flag for each ball seen before them | 5.2 |
 //! | `arrange` | which balls are drawn, and the list of those around the eye | 5.2 |
 //! | `register` | the balls of each tile, unless the host has sent them (`cpu:register`) | 5.3 |
 //! | `begin` | the lists that rays begin with | |
-//! | `turn` | per layer: tiles without a ray left draw nothing any more | 5.3 |
-//! | `peel` | per layer: the nearest point beyond the last one, tile by tile in one pass | 4.1, 5.1 |
-//! | `test` | per layer: the interval's search and the toggled list | 4.2, 4.3, 5.4 |
-//! | `account` | rays without an answer | |
+//! | `turn` | per layer: tiles without an unanswered ray draw nothing any more | 5.3 |
+//! | `peel` | per layer: the nearest point behind the last one, tile by tile in one pass | 4.1, 5.1 |
+//! | `test` | per layer: search of the interval, and the list toggled | 4.2, 4.3, 5.4 |
+//! | `account` | count of the rays without an answer | |
 //!
 //! # Changes versus the paper
 //! *Coefficients* of appendix A hold with a = Q²/R², Q half the chord; the text has D/R. Every power
@@ -31,21 +31,21 @@
 //!
 //! *Rectangles* of appendix B hold for spheres wholly in front of the eye's plane. Here tangents are
 //! turned directions, with cases for spheres that cross the plane, lie behind it or hold the eye
-//! (`core/cover.wgsl`).
+//! (`shaders/wgsl/core/cover.wgsl`).
 //!
 //! *The eye may be inside supports*: the paper's is outside. Rays begin at t = 0 with the balls
 //! around the eye on their lists, decided once per ball and frame.
 //!
-//! *Occlusion queries* become flags: fragments say which balls are seen and which tiles have a ray
-//! left. Culled balls lose their rectangle. A tile is a scissored indirect draw of the layer's one pass;
-//! once it has ended it draws no instances, so that a batch of layers is recorded without asking how
-//! far it gets. The kernel sphere's depth is the hit of the single case and ends every ray: with balls
-//! behind it left out, nothing more would come.
+//! *Occlusion queries* become flags: fragments mark which balls are seen and which tiles have an
+//! unanswered ray. Culled balls lose their rectangle. A tile is a scissored indirect draw of the layer's
+//! one pass; once all its rays are answered it draws no instances, so that layers are recorded in
+//! advance, without reading back how many are needed. The kernel sphere's depth is the hit of the
+//! single case and ends every ray: balls behind it are culled, and no point behind it would be right.
 //!
-//! *Registration on the host,* as published, knows the rectangles and not what is seen: culled balls
-//! are registered and drop out in the vertex stage. [`Registration::Device`] leaves them out.
+//! *Registration on the host,* as published, has the rectangles and not what is seen: culled balls
+//! are registered and drop out in the vertex stage. [`Registration::Adapter`] leaves them out.
 //!
-//! *A full stack* drops its furthest range and restores it from the whole curve when its turn comes,
+//! *A full stack* drops its furthest range, which is cut from the whole curve again when it is next,
 //! so no stack size loses a root. Ranges with several sign changes are split down to the square of
 //! the threshold before they count as a root, since a hull may cross the axis where the curve does
 //! not.
@@ -54,8 +54,8 @@
 //! polyhedra, all balls, one tile, and two other ways of clipping. [`Clipping::Iterative`] is our
 //! reading of a form that the paper describes in a clause; the paper has 16.4 iterations for it.
 //!
-//! *A ball whose end is lost* to a coincident point (section 7, figure 9a) stays on the list, as
-//! printed, but adds nothing outside its own chord: what is lost can make a surface late, never
+//! *A ball whose exit is lost* to a coincident point (section 7, figure 9a) stays on the list, as
+//! printed, but adds nothing outside its own chord: a lost point can make a surface late, never
 //! early.
 //!
 //! *Not in the paper:* [`robust`] is a renderer that is right where section 7 gives up, and
@@ -63,17 +63,18 @@
 //!
 //! # Practice
 //! Right wherever no two points along the ray before the surface coincide in f32 and no more than K
-//! supports overlap there. With more than K the support itself is drawn, as section 7 says, and the hit
-//! is marked as a fallback; no list holds more than 30 balls. Nothing marks a coincident point: of those
-//! with one t only one ever comes up, and section 7 leaves out the check that would tell, for its cost.
-//! Two equal balls at one place are peeled as one. t errs by at most half the threshold times the
-//! interval's length.
+//! supports overlap there. With more than K ([`Options::list_capacity`]) the support itself is drawn, as
+//! section 7 says, and the hit is marked as a fallback. Nothing marks a coincident point: of those with
+//! one t a single one is peeled, and section 7 leaves out the check that would notice, for its cost.
+//! Coincident equal balls are peeled as one. t errs by at most half the threshold
+//! ([`Options::threshold`]) times the interval's length.
 //!
-//! A frame that runs out of layers is incomplete and is drawn again with twice as many; so is one whose
-//! tiles have more balls than the device has room for, with that room. [`Renderer`]'s `frame_facts`
-//! tell the balls drawn and the share that was culled; its counters ([`metaball_core::gpu::Work`]) the
+//! A frame that runs out of layers is incomplete and is drawn again with twice as many; one whose tiles
+//! have more balls than their buffers hold, with buffers that hold them. [`Renderer`]'s `frame_facts`
+//! are the balls drawn and the share that was culled; its counters ([`metaball_core::Work`]) have the
 //! iterations of clipping, in all and in the longest search. 144 bytes a pixel with K = 14. At most
-//! 16,640,000 balls: indices are kept as f32.
+//! [`MOST_BALLS`] balls: indices are kept as f32. A kernel that is no polynomial along a ray is refused
+//! with [`metaball_core::gpu::RenderError::Unsupported`].
 
 pub mod baseline;
 pub mod robust;

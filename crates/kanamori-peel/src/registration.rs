@@ -1,8 +1,8 @@
 //! Registration of balls with tiles on the host, as published (section 5.3).
 //!
-//! Beside `shaders/wgsl/kanamori_peel/register.wgsl`, which does the same on the device. Neither shares the tile bins
-//! of `metaball_core::gpu`: a tile's balls must come by rising index, since of coincident points the
-//! depth test keeps the one drawn first, and the grid is the paper's, of a few tiles a side.
+//! `shaders/wgsl/kanamori_peel/register.wgsl` does the same on the adapter. Neither uses the tile bins of
+//! `metaball_core::gpu`: a tile's balls must be in rising order of index, as of coincident points the
+//! depth test keeps the one drawn first, and the grid is the paper's, of a few tiles on a side.
 
 use glam::{DVec2, Vec3};
 use metaball_core::View;

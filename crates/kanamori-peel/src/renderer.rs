@@ -104,7 +104,7 @@ impl IsoRenderer for Renderer {
         };
         self.supports = match self.options.registration {
             Registration::Host => scene.balls().map(|ball| (ball.center, ball.radius)).collect(),
-            Registration::Device => Vec::new(),
+            Registration::Adapter => Vec::new(),
         };
         self.layers = None;
         self.tiles = Some(tiles);
@@ -140,7 +140,7 @@ impl IsoRenderer for Renderer {
         let passes = Passes { pipelines, balls, tiles, layers: &layers, options: &self.options };
         balls.begin(gpu, view, frame.encoder())?;
         passes.arrange(frame);
-        if self.options.registration == Registration::Device {
+        if self.options.registration == Registration::Adapter {
             passes.register(frame);
         }
         passes.begin(frame);

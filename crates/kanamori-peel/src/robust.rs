@@ -1,32 +1,36 @@
-//! A variant that is never wrong where section 7 gives up: coincident points, more balls over a point
+//! A variant of ours that is right where section 7 gives up: coincident points, more balls over a point
 //! than a list holds, thousands of balls before the surface.
 //!
 //! # Theory
-//! What gives up is the peeling: it must tell one point of a ray from the next, keep all balls between
-//! them, and pass as many layers as there are points. So nothing is peeled. Balls are registered with
-//! tiles of the picture as in section 5.3, and each ray searches its tile's list, which is sorted by
-//! the eye's distance: on an interval of a ray every ball's least and greatest share of the field, and
-//! of its slope, are known in closed form. An interval in which the sum of the greatest stays below T
-//! is passed, whoever enters or leaves there; one whose end is certainly above T with a slope that is
-//! certainly positive holds one root; any other is halved. The sums have room for the rounding of all
-//! that went into them, and distances are kept from a point near by (`core/beside.wgsl`), so that an
-//! answer is a hit, a miss, or undecided: closer to T than f32 can tell.
+//! What fails there is the peeling: it must distinguish one point of a ray from the next, keep all balls
+//! between them, and draw as many layers as there are points. So nothing is peeled. Balls are registered
+//! with tiles of the picture as in section 5.3, and each ray searches its tile's list, which is sorted by
+//! distance from the eye: on an interval of a ray every ball's least and greatest contribution to the
+//! field, and to its slope, are known in closed form. An interval in which the sum of the greatest stays
+//! below T is passed, whichever balls begin or end there; one whose end is certainly above T with a slope
+//! that is certainly positive holds one root; any other is halved. The sums have margins for the rounding
+//! of all their terms, and distances are relative to a nearby origin on the ray, so that an answer is a
+//! hit, a miss, or undecided: closer to T than f32 can distinguish.
 //!
 //! | pass | what |
 //! | --- | --- |
 //! | `register` | lists of balls for the tiles of the picture |
 //! | `sort` | each list by distance |
 //! | `search` | each ray's first hit |
-//! | `resume` | the same for rays that ran out of work for one dispatch |
+//! | `resume` | the same for rays whose search exceeded the budget of one dispatch |
 //!
-//! Peeling first and searching what it could not settle would cost both: an f32 list of points does
-//! not know by how much it errs, so every answer of it would have to be searched anyway.
+//! # Changes versus the paper
+//! All of the paper but its tiles is replaced. Peeling first, and searching only what it leaves open,
+//! would cost both: the error of an f32 list of points is unknown, so each of its answers would have to
+//! be searched anyway.
 //!
 //! # Practice
-//! Any kernel, Perlin's too. Where the surface lies within 3e-6 of v = 1 − r²/R² of the rims, as with
-//! the quartic at thresholds below 1e-11 of the strengths, rays come back undecided. At most [`INTERVAL_CAPACITY`]
-//! balls may reach one interval of a ray, and 131,072 one tile of 16 × 16 pixels: beyond that the frame is
-//! refused with the numbers. 24 bytes a pixel, 8 for each entry of a list.
+//! Any kernel, Perlin's too. Where the surface lies within 3e-6 of v = 1 − r²/R² of the rims of supports,
+//! as with the quartic at thresholds below 1e-11 of the strengths, rays are undecided. At most
+//! [`INTERVAL_CAPACITY`] balls may reach one interval of a ray, and [`TILE_CAPACITY`] be over one tile of
+//! 16 × 16 pixels: beyond that the frame is refused with the numbers. 24 bytes a pixel, 8 for each entry
+//! of a list. A hit is the field's root to within the rounding of t from the nearby origin, and where the
+//! field is nearly flat to 2⁻²⁰ of the least radius there.
 
 mod buffers;
 
@@ -49,10 +53,6 @@ pub const INTERVAL_CAPACITY: u32 = 8_192;
 /// The most balls over a tile of 16 × 16 pixels, bounded by the iterations that sorting them takes.
 /// `MOST_ENTRIES` of `shaders/wgsl/kanamori_robust/lists.wgsl`.
 pub const TILE_CAPACITY: u32 = 131_072;
-
-/// How far from the root a hit may be, in parts of the least support radius there, rounding aside: an
-/// interval that is shorter is not halved further. `SHORT` of `shaders/wgsl/kanamori_robust/search.wgsl`.
-pub const ROOT_TOLERANCE: f64 = 1.0 / (1 << 20) as f64;
 
 /// Entries of all tiles that the first buffers hold: 2 MB.
 const FIRST_ENTRIES: u32 = 1 << 18;

@@ -18,14 +18,14 @@ pub(crate) struct Tile {
     pub(crate) first: u32,
     /// Their number.
     pub(crate) balls: u32,
-    /// Not 0 where a ray of the tile has no answer before the layer at hand.
+    /// Not 0 where a ray of the tile has no answer before the current layer.
     pub(crate) is_live: u32,
 }
 
 /// Bytes of an indirect draw: WGSL's `Draw` of `shaders/wgsl/kanamori_peel/turn.wgsl`.
 const DRAW_BYTES: u64 = 16;
 
-/// Elements of the buffers with one a tile.
+/// Elements of buffers with one a tile.
 pub(crate) const ALL_TILES: u64 = MOST_TILES as u64 * MOST_TILES as u64;
 
 /// The tiles of a picture, row by row from the top left.
@@ -81,7 +81,7 @@ impl Grid {
     }
 }
 
-/// The tiles on the device, with a capacity of registrations; and the groups 2 that bind them.
+/// The tiles on the adapter, with a capacity of registrations; and the groups 2 that bind them.
 pub(crate) struct TileBuffers {
     pub(crate) registering: wgpu::BindGroup,
     pub(crate) turning: wgpu::BindGroup,
@@ -109,7 +109,7 @@ impl TileBuffers {
         let registered = gpu.storage("balls of tiles", 4 * u64::from(capacity), none)?;
         let rows = match registration {
             Registration::Host => 1,
-            Registration::Device => balls.workgroups().max(1),
+            Registration::Adapter => balls.workgroups().max(1),
         };
         let tallies = gpu.storage("tallies of tiles", 4 * ALL_TILES * u64::from(rows), none)?;
         let rays_left = gpu.storage("rays left", 4 * ALL_TILES, none)?;
@@ -153,7 +153,7 @@ impl TileBuffers {
         })
     }
 
-    /// Bytes on the device.
+    /// Bytes on the adapter.
     pub(crate) fn bytes(&self) -> u64 {
         self.bytes
     }

@@ -1,4 +1,4 @@
-//! A ball's share of the field along a stretch of its chord, in Bernstein form.
+//! A ball's contribution to the field on an interval of its chord, in Bernstein form.
 //!
 //! Polynomials are kept *scaled*: coefficient k times the binomial of the degree over k. Products of
 //! scaled polynomials are plain convolutions.
@@ -13,7 +13,7 @@ pub(super) const MOST_DEGREE: usize = 16;
 /// Coefficients of a polynomial on [0, 1]; those above its degree are 0.
 pub(super) type Coefficients = [f64; MOST_DEGREE + 1];
 
-/// A sum of balls' shares, scaled, of a kernel's degree along a ray.
+/// A sum of balls' contributions, scaled, of a kernel's degree along a ray.
 #[derive(Debug, Clone)]
 pub(super) struct Sum<'k> {
     kernel: &'k [f64],
@@ -50,8 +50,8 @@ impl Sum<'_> {
                 add_constant(&mut power, degree, coefficient);
             }
         }
-        for (sum, share) in self.scaled.iter_mut().zip(power) {
-            *sum += chord.strength * share;
+        for (sum, term) in self.scaled.iter_mut().zip(power) {
+            *sum += chord.strength * term;
         }
     }
 
@@ -85,10 +85,10 @@ fn next_binomial(binomial: f64, n: usize, k: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Against the kernel itself, at points of a stretch inside the chord: a few dozen operations of
+    /// Against the kernel itself, at points of an interval inside the chord: a few dozen operations of
     /// numbers up to 1.
     #[test]
-    fn a_share_is_the_kernel_along_the_chord() {
+    fn a_contribution_is_the_kernel_along_the_chord() {
         let chord = Chord {
             middle: 3.0,
             half_squared: 1.7,

@@ -1,6 +1,6 @@
 //! Bézier clipping as it was first published (Nishita, Sederberg and Kakimoto 1990): clip to where
-//! the hull of the control points crosses the axis, again and again; where that takes too little
-//! away, split in two.
+//! the hull of the control points crosses the axis, again and again; where that removes too little,
+//! split in two.
 
 use super::bernstein::Coefficients;
 
@@ -30,7 +30,7 @@ impl Search {
         Self { threshold, searches: 0, iterations: 0, most_iterations: 0 }
     }
 
-    /// The first place of [0, 1] at which the curve of so many control points is not negative.
+    /// The first u of [0, 1] at which the curve of this degree is not negative.
     pub(super) fn first_root(&mut self, points: &Coefficients, degree: usize) -> Option<f64> {
         let before = self.iterations;
         self.searches += 1;
@@ -81,10 +81,10 @@ impl Range {
             }
         }
         if high < 1.0 {
-            let share = (high - low) / (1.0 - low);
+            let part = (high - low) / (1.0 - low);
             for round in 1..=degree {
                 for k in (round..=degree).rev() {
-                    points[k] = points[k - 1] + share * (points[k] - points[k - 1]);
+                    points[k] = points[k - 1] + part * (points[k] - points[k - 1]);
                 }
             }
         }

@@ -52,11 +52,11 @@ impl Intervals {
                 break;
             }
             match active.iter().position(|&other| other == ball) {
-                Some(place) => drop(active.swap_remove(place)),
+                Some(index) => drop(active.swap_remove(index)),
                 None => active.push(ball),
             }
         }
-        // Nothing beyond a kernel sphere comes before the surface: it is a hit by itself.
+        // A kernel sphere lies in the solid: a ray that reaches it has hit.
         (self.kernel_sphere <= limit).then_some(self.kernel_sphere)
     }
 }
@@ -69,7 +69,7 @@ fn first_in(
     (low, high): (f64, f64),
     search: &mut Search,
 ) -> Option<f64> {
-    // A ball alone shows its kernel sphere, which the caller knows.
+    // The surface of a ball alone is its kernel sphere, which bounds the search.
     if active.len() < 2 {
         return None;
     }

@@ -1,4 +1,4 @@
-//! A hierarchy over effective spheres, split in the middle; leaves of up to four, met at once.
+//! A hierarchy over effective spheres, split in the middle; leaves of up to four, tested at once.
 
 use glam::Vec3;
 use metaball_core::{Aabb, Ray, Scene, Support};
@@ -29,7 +29,7 @@ enum Content {
     Leaf(u32),
 }
 
-/// Up to four spheres, lane by lane. Lanes without one name no ball.
+/// Up to four spheres, lane by lane. Lanes without one have the index `u32::MAX`.
 #[derive(Debug)]
 struct Leaf {
     center: [f32x4; 3],
@@ -37,7 +37,7 @@ struct Leaf {
     balls: [u32; LANES],
 }
 
-/// What a chord is made of, in f64.
+/// What a ball's chord follows from.
 #[derive(Debug, Clone, Copy)]
 struct Ball {
     support: Support,
@@ -89,7 +89,7 @@ impl Tree {
         });
         let first_half =
             order.partition_point(|&ball| self.balls[ball as usize].support.center[axis] <= middle);
-        // Centres at one place have no middle.
+        // Coincident centres have no middle.
         let cut = if first_half == order.len() { order.len() / 2 } else { first_half.max(1) };
         let (left, right) = order.split_at_mut(cut);
         self.nodes.push(Node { bounds, content: Content::Inner(0) });
@@ -166,7 +166,7 @@ impl Leaf {
         }
     }
 
-    /// The balls that the ray meets, and perhaps some that it passes by within rounding.
+    /// Indices of the balls that the ray meets, and perhaps some that it misses by no more than rounding.
     ///
     /// Q² from the vector between ray and centre is wrong by 2⁻²⁴ times 20·D·R + 8·R², D the distance
     /// of the centre, for those that the ray nearly touches; D is at most |m| + R there.
@@ -234,7 +234,7 @@ impl Slabs {
         Self { origin: ray.origin, inverse: direction.recip() }
     }
 
-    /// Where the ray enters the box, with room for the three roundings of each crossing.
+    /// t at which the ray enters the box, with a margin for the three roundings of each crossing.
     fn enter(&self, bounds: &Aabb, limit: f32) -> Option<f32> {
         const ROUNDING: f32 = 4.0 * f32::EPSILON;
         let one = (bounds.min - self.origin) * self.inverse;

@@ -59,9 +59,9 @@ fn sums_of_every_polynomial_kernel_are_right() {
     }
 }
 
-/// Section 7's special cases do not exist here: neither crowds nor coincident points.
+/// Section 7's special cases do not exist here: neither large overlap nor coincident points.
 #[test]
-fn crowds_and_coincident_points_are_right() {
+fn overlap_and_coincident_points_are_right() {
     assert_right(&scene(Kernel::Wyvill, 150, 0.2), &rays(4.0), 300);
     let coincident = Scene::new(vec![Metaball::new(Vec3::ZERO, 1.0); 65], Kernel::QUARTIC, 0.25);
     assert_right(&coincident.expect("legal"), &rays(4.0), 300);

@@ -1,4 +1,4 @@
-//! Bernstein forms and Bézier clipping on the device, against f64.
+//! Bernstein forms and Bézier clipping on the adapter, against f64.
 
 use metaball_core::Kernel;
 use metaball_core::gpu::{Gpu, Shader, Specialization};
@@ -8,7 +8,7 @@ use super::random::Random;
 use crate::Clipping;
 use crate::pipelines::search_modules;
 
-/// A curve's coefficients, or what belongs to one: room for degree 16 and three numbers more.
+/// A curve's coefficients, up to degree 16, or numbers that a curve follows from.
 pub(super) type Record = [f32; 20];
 
 /// What entry `evaluate` of the source makes of each record. `constants` are those of the modules
@@ -240,11 +240,11 @@ fn clipping_copes_with_tangents() {
         curve([0, 1, 2, 3, 4, 5, 6].map(coefficient))
     };
     for squared in [1e-2, 1e-4, 1e-5, -1e-5, -1e-4, -1e-2] {
-        let places: Vec<f64> = (4..=19).map(|index| f64::from(index) / 20.0 + 0.003).collect();
-        let curves: Vec<_> = places.iter().map(|&r| touching(r, squared)).collect();
+        let roots_at: Vec<f64> = (4..=19).map(|index| f64::from(index) / 20.0 + 0.003).collect();
+        let curves: Vec<_> = roots_at.iter().map(|&r| touching(r, squared)).collect();
         for stack_size in [1.0, 3.0] {
             for (r, root) in
-                places.iter().zip(roots(&gpu, &curves, Clipping::ShortStack, (1e-3, stack_size)))
+                roots_at.iter().zip(roots(&gpu, &curves, Clipping::ShortStack, (1e-3, stack_size)))
             {
                 if squared < 0.0 {
                     assert_eq!(root, 2.0, "touch at {r} from {squared:e} below");

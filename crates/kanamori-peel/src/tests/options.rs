@@ -104,7 +104,7 @@ fn tiles_and_outlines_change_nothing() {
     assert!(culled.iter().all(|hits| hits.iter().any(Hit::is_hit)));
     for options in [
         Options { tiles: 1, ..published },
-        Options { tiles: 16, registration: Registration::Device, ..published },
+        Options { tiles: 16, registration: Registration::Adapter, ..published },
         Options { outline: Outline::Tessellation, ..published },
     ] {
         assert!(pictures(options) == culled, "{options:?}");
@@ -114,22 +114,26 @@ fn tiles_and_outlines_change_nothing() {
     assert!(pictures(Options { tiles: 5, ..tessellated }) == all);
 }
 
-/// Balls that are in many tiles overflow the room that a scene begins with, wherever they are registered;
-/// the frame is drawn with more, and is the same to the last bit as with one tile, which needs none.
+/// Balls that are in many tiles overflow the buffers that a scene begins with, wherever they are registered;
+/// the frame is drawn again with larger ones, and is the same to the last bit as with one tile, which needs
+/// none.
 #[test]
-fn registrations_beyond_the_room_are_drawn_with_more() {
+fn registrations_beyond_the_capacity_are_drawn_with_more() {
     let Some(gpu) = Gpu::for_test() else { return };
     let unculled = Options { culling: false, ..Options::default() };
     let attempt = |options| {
         let mut renderer = built(&gpu, options);
         let before = renderer.registration_capacity();
         let picture = draw_from(&gpu, &mut renderer, 9.0, (64, 48));
-        (picture, [before, renderer.registration_capacity()].map(|room| room.expect("is built")))
+        (
+            picture,
+            [before, renderer.registration_capacity()].map(|capacity| capacity.expect("is built")),
+        )
     };
     let (one_tile, [before, after]) = attempt(Options { tiles: 1, ..unculled });
     assert_eq!(before, after);
     assert!(one_tile.hits.iter().filter(|hit| hit.is_hit()).count() > 500);
-    for registration in [Registration::Host, Registration::Device] {
+    for registration in [Registration::Host, Registration::Adapter] {
         let (picture, [before, after]) = attempt(Options { tiles: 16, registration, ..unculled });
         let registered = picture.facts["registrations"] as u32;
         assert!(before < registered && registered <= after, "{before}, {registered}, {after}");
@@ -137,18 +141,18 @@ fn registrations_beyond_the_room_are_drawn_with_more() {
     }
 }
 
-/// What the device registers without culling is what the host does, which knows nothing of it.
+/// Without culling, of which the host has no knowledge, the adapter registers what the host does.
 #[test]
-fn host_and_device_register_the_same() {
+fn host_and_adapter_register_the_same() {
     let Some(gpu) = Gpu::for_test() else { return };
     for tiles in [1, 8, 16] {
         let of = |registration| {
             let options = Options { tiles, registration, culling: false, ..Options::default() };
             draw(&gpu, options).facts["registrations"]
         };
-        let (host, device) = (of(Registration::Host), of(Registration::Device));
+        let (host, adapter) = (of(Registration::Host), of(Registration::Adapter));
         // A rectangle's edge may round to the other side of a tile's.
-        assert!((host - device).abs() <= 2.0 && host >= 145.0, "{host} and {device}");
+        assert!((host - adapter).abs() <= 2.0 && host >= 145.0, "{host} and {adapter}");
     }
 }
 

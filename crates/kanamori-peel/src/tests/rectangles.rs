@@ -45,10 +45,10 @@ fn projected(ball: &Metaball, view: &View) -> Option<(DVec2, DVec2)> {
             let normal = DVec3::new(sine * turn.cos(), sine * turn.sin(), cosine);
             let point = ball.center.as_dvec3() + f64::from(ball.radius) * normal;
             if point.z < 0.0 {
-                let place = DVec2::new(point.x, point.y) / -point.z / half;
-                if place.abs().max_element() <= 1.0 {
-                    low = low.min(place);
-                    high = high.max(place);
+                let position = DVec2::new(point.x, point.y) / -point.z / half;
+                if position.abs().max_element() <= 1.0 {
+                    low = low.min(position);
+                    high = high.max(position);
                 }
             }
         }
@@ -56,7 +56,7 @@ fn projected(ball: &Metaball, view: &View) -> Option<(DVec2, DVec2)> {
     (low.x <= high.x).then_some((low, high))
 }
 
-/// The rectangles that the device makes.
+/// The rectangles that the adapter makes.
 fn placed(gpu: &Gpu, balls: &[Metaball], view: &View) -> Vec<Placed> {
     let scene = Scene::new(balls.iter().copied(), Kernel::QUARTIC, 0.5).expect("legal");
     let mut renderer =

@@ -1,5 +1,5 @@
-//! The search that replaces peeling: its structs and its limits. That it is right
-//! is tested with the other methods.
+//! The search that replaces peeling: its structs and its limits. That it is right is tested with the other
+//! methods, in `tests/src/trials`.
 
 use glam::Vec3;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError, Targets, render};
@@ -28,19 +28,19 @@ fn host_structs_are_their_twins() {
     assert_eq!(twin("State"), host_layout!(State { stage, first, base, low, probe, high }));
 }
 
-/// A crowd of more than can be told apart is refused with the number, not drawn wrong; one below is
-/// drawn.
+/// Overlap beyond the capacity of an interval is refused with the number, not drawn wrong; as much as the
+/// capacity is drawn.
 #[test]
 fn more_than_the_limit_is_refused_by_number() {
     let Some(gpu) = Gpu::for_test() else { return };
     let camera = Camera::look_at(Vec3::Z * 4.0, Vec3::ZERO, Vec3::Y, 38.0).expect("legal");
-    let crowd = |balls: u32| {
+    let coincident = |balls: u32| {
         let ball = Metaball { center: Vec3::ZERO, radius: 1.0, strength: 1e-4 };
         Scene::new(vec![ball; balls as usize], Kernel::QUARTIC, 0.25).expect("legal")
     };
-    let hits = draw(&gpu, &crowd(INTERVAL_CAPACITY), camera).expect("draws");
+    let hits = draw(&gpu, &coincident(INTERVAL_CAPACITY), camera).expect("draws");
     assert!(hits.iter().any(|hit| hit.verdict == Verdict::Hit));
-    match draw(&gpu, &crowd(INTERVAL_CAPACITY + 1), camera) {
+    match draw(&gpu, &coincident(INTERVAL_CAPACITY + 1), camera) {
         Err(RenderError::Unsupported { reason, .. }) => {
             assert_eq!(
                 reason,

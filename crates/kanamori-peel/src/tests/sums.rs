@@ -63,11 +63,11 @@ impl Sum {
     /// Of four in a row the first has a threshold that the ray reaches aslant or not at all; the others
     /// one that its first rise just touches, just passes, and just does not reach, by 0.4 %.
     fn random(random: &mut Random, kernel: Kernel, index: usize) -> Self {
-        let mut place =
+        let mut point =
             |reach: f32| Vec3::from([(); 3].map(|()| reach * (2.0 * random.unit() - 1.0)));
-        let (centers, aim) = ([(); BALLS].map(|()| place(0.7)), place(0.3));
-        let eye = 4.0 * place(1.0).normalize_or(Vec3::Z);
-        let ray = Ray::new(eye, (aim - eye).normalize());
+        let (centers, target) = ([(); BALLS].map(|()| point(0.7)), point(0.3));
+        let eye = 4.0 * point(1.0).normalize_or(Vec3::Z);
+        let ray = Ray::new(eye, (target - eye).normalize());
         let balls: Vec<_> = centers
             .into_iter()
             .map(|center| {
@@ -86,7 +86,7 @@ impl Sum {
 
     fn field(&self, t: f64) -> f64 {
         let of = |chord: &Chord| {
-            // 1 − v, with v = 4a s(1 − s) and s the place on the chord.
+            // 1 − v, with v = 4a s(1 − s) and s the position on the chord.
             let aside = (t - chord.middle) / chord.half;
             let v = chord.a * (1.0 - aside * aside);
             if v > 0.0 { chord.strength * self.kernel.value(1.0 - v) } else { 0.0 }
@@ -128,10 +128,10 @@ impl Sum {
             let mut record = Record::default();
             record[0] = self.threshold;
             for chord in active {
-                let place =
+                let position =
                     |t: f64| (((t - chord.middle) / chord.half + 1.0) / 2.0).clamp(0.0, 1.0) as f32;
                 let at = 2 + 4 * record[1] as usize;
-                let own = [chord.a as f32, chord.strength as f32, place(low), place(high)];
+                let own = [chord.a as f32, chord.strength as f32, position(low), position(high)];
                 record[at..at + 4].copy_from_slice(&own);
                 record[1] += 1.0;
             }

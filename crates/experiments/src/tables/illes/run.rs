@@ -17,7 +17,7 @@ use harness::stats::{quantile, sorted};
 /// What is measured beside each other.
 pub const SETTINGS: [(&str, Gather, Sort); 3] = [
     ("illes", Gather::Raster, Sort::Host),
-    ("illes, sorted on the device", Gather::Raster, Sort::Device),
+    ("illes, sorted on the device", Gather::Raster, Sort::Adapter),
     ("illes-compute", Gather::Tiles, Sort::Host),
 ];
 

@@ -61,7 +61,9 @@ impl Setting {
             Self::Tessellated => Options { outline: Outline::Tessellation, ..published },
             Self::Unculled => Options { culling: false, ..published },
             Self::Tiles(tiles) => Options { tiles, ..published },
-            Self::RegisteredOnDevice => Options { registration: Registration::Device, ..published },
+            Self::RegisteredOnDevice => {
+                Options { registration: Registration::Adapter, ..published }
+            }
             Self::Iterative => Options { clipping: Clipping::Iterative, ..published },
             Self::Original => Options { clipping: Clipping::Original, ..published },
             Self::Threshold(threshold) => Options { threshold, ..published },

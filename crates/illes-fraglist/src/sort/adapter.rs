@@ -1,4 +1,4 @@
-//! Sorting on the device: by effective distance, four bits a pass.
+//! Radix sort on the adapter, four bits a pass.
 
 use metaball_core::gpu::{
     Frame, Gpu, RenderError, Shader, Specialization, bind_group, workgroup_grid,
@@ -107,7 +107,7 @@ impl SortBuffers {
         Ok(Self { balls, table, to_first, to_second, bytes })
     }
 
-    /// Bytes on the device.
+    /// Bytes on the adapter.
     pub(crate) fn bytes(&self) -> u64 {
         self.bytes
     }
