@@ -5,6 +5,7 @@ mod curves;
 mod layouts;
 mod options;
 mod random;
+mod records;
 mod rectangles;
 mod robust;
 mod sums;

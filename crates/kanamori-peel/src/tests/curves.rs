@@ -1,72 +1,11 @@
 //! Bernstein forms and Bézier clipping on the adapter, against f64.
 
 use metaball_core::Kernel;
-use metaball_core::gpu::{Gpu, Shader, Specialization};
-use metaball_shaders::Module;
+use metaball_core::gpu::Gpu;
 
 use super::random::Random;
+use super::records::{Record, evaluate, record_shader};
 use crate::Clipping;
-use crate::pipelines::search_modules;
-
-/// A curve's coefficients, up to degree 16, or numbers that a curve follows from.
-pub(super) type Record = [f32; 20];
-
-/// What entry `evaluate` of the source makes of each record. `constants` are those of the modules
-/// that it imports.
-pub(super) fn evaluate(
-    gpu: &Gpu,
-    source: &'static str,
-    kernel: Kernel,
-    clipping: Clipping,
-    constants: &[(&str, f64)],
-    inputs: &[Record],
-) -> Vec<Record> {
-    let spec = Specialization { kernel, ..Specialization::without_balls() };
-    let spec =
-        spec.choosing(search_modules(kernel, spec.kernel_form, clipping).expect("has a form"));
-    let module = Module { name: "test", source, is_entry: true };
-    let shader = Shader::of_module(gpu, &module, &spec).expect("composes");
-    let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("records"),
-        entries: &[storage(0, true), storage(1, false)],
-    });
-    let pipeline = shader
-        .compute(gpu, "evaluate", "evaluate", &spec, &[&layout], constants)
-        .expect("makes a pipeline");
-    let none = wgpu::BufferUsages::empty();
-    let workgroups = (inputs.len() as u32).div_ceil(64);
-    let inputs = gpu.upload("inputs", inputs, none).expect("small");
-    let outputs = gpu.storage("outputs", inputs.size(), none).expect("small");
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("records"),
-        layout: &layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: inputs.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: outputs.as_entire_binding() },
-        ],
-    });
-    gpu.checked(|| {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(workgroups, 1, 1);
-        drop(pass);
-        gpu.queue.submit([encoder.finish()]);
-    })
-    .expect("runs");
-    gpu.read(&outputs).expect("reads")
-}
 
 /// The value of a curve in Bernstein form, by de Casteljau in f64.
 fn value(coefficients: &[f32], u: f64) -> f64 {
@@ -82,21 +21,15 @@ fn value(coefficients: &[f32], u: f64) -> f64 {
 /// 3·2α each: below 128 · 2⁻²³ for α = 8.
 #[test]
 fn bernstein_forms_are_the_kernel() {
-    const SOURCE: &str = "#import kanamori_peel::bernstein::{along_chord, degree}\n\
-        #import kanamori_peel::bezier::part
-        @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
-        @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
-        @compute @workgroup_size(64)
-        fn evaluate(@builtin(global_invocation_id) id: vec3<u32>) {
-            if id.x >= arrayLength(&inputs) {
-                return;
-            }
-            let chord = inputs[id.x];
-            let curve = part(along_chord(chord[0], chord[1]), chord[2], chord[3]);
-            for (var i = 0u; i <= degree(); i++) {
-                outputs[id.x][i] = curve.d[i];
-            }
-        }";
+    const SOURCE: &str = record_shader!(
+        "#import kanamori_peel::bernstein::{along_chord, degree}\n\
+         #import kanamori_peel::bezier::part",
+        "
+                let curve = part(along_chord(record[0], record[1]), record[2], record[3]);
+                for (var i = 0u; i <= degree(); i++) {
+                    outcome[i] = curve.d[i];
+                }"
+    );
     let Some(gpu) = Gpu::for_test() else { return };
     let mut random = Random::new(1);
     let chords: Vec<Record> = (0..400)
@@ -130,21 +63,16 @@ fn bernstein_forms_are_the_kernel() {
 }
 
 /// Finds the first root of each curve: 0 to 1, or 2 where there is none.
-const ROOTS: &str = "#import kanamori_peel::bernstein::{Curve, degree}\n\
-    #import kanamori_peel::clipping::first_root
-    @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
-    @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
-    @compute @workgroup_size(64)
-    fn evaluate(@builtin(global_invocation_id) id: vec3<u32>) {
-        if id.x >= arrayLength(&inputs) {
-            return;
-        }
-        var curve = Curve();
-        for (var i = 0u; i <= degree(); i++) {
-            curve.d[i] = inputs[id.x][i];
-        }
-        outputs[id.x][0] = first_root(curve);
-    }";
+const ROOTS: &str = record_shader!(
+    "#import kanamori_peel::bernstein::{Curve, degree}\n\
+     #import kanamori_peel::clipping::first_root",
+    "
+                var curve = Curve();
+                for (var i = 0u; i <= degree(); i++) {
+                    curve.d[i] = record[i];
+                }
+                outcome[0] = first_root(curve);"
+);
 
 /// Roots of curves of degree six with a threshold and, on the short stack, a stack size.
 fn roots(

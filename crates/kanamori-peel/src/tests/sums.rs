@@ -5,37 +5,31 @@ use metaball_core::gpu::Gpu;
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Kernel, Metaball, Ray, Scene, Verdict};
 
-use super::curves::{Record, evaluate};
 use super::random::Random;
+use super::records::{Record, evaluate, record_shader};
 use crate::Clipping;
 
 /// First roots of sums less T over intervals: a record is T, the number of balls, and of each ball a,
 /// the strength, and the interval's ends in parts of the chord.
-const SUMS: &str = "#import kanamori_peel::bernstein::{along_chord, Curve, degree}\n\
-    #import kanamori_peel::bezier::part\n\
-    #import kanamori_peel::clipping::first_root
-    @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 20>>;
-    @group(0) @binding(1) var<storage, read_write> outputs: array<array<f32, 20>>;
-    @compute @workgroup_size(64)
-    fn evaluate(@builtin(global_invocation_id) id: vec3<u32>) {
-        if id.x >= arrayLength(&inputs) {
-            return;
-        }
-        let record = inputs[id.x];
-        var sum = Curve();
-        for (var i = 0u; i <= degree(); i++) {
-            sum.d[i] = -record[0];
-        }
-        for (var ball = 0u; ball < u32(record[1]); ball++) {
-            let at = 2u + 4u * ball;
-            let whole = along_chord(record[at], record[at + 1u]);
-            let own = part(whole, record[at + 2u], record[at + 3u]);
-            for (var i = 0u; i <= degree(); i++) {
-                sum.d[i] += own.d[i];
-            }
-        }
-        outputs[id.x][0] = first_root(sum);
-    }";
+const SUMS: &str = record_shader!(
+    "#import kanamori_peel::bernstein::{along_chord, Curve, degree}\n\
+     #import kanamori_peel::bezier::part\n\
+     #import kanamori_peel::clipping::first_root",
+    "
+                var sum = Curve();
+                for (var i = 0u; i <= degree(); i++) {
+                    sum.d[i] = -record[0];
+                }
+                for (var ball = 0u; ball < u32(record[1]); ball++) {
+                    let at = 2u + 4u * ball;
+                    let whole = along_chord(record[at], record[at + 1u]);
+                    let own = part(whole, record[at + 2u], record[at + 3u]);
+                    for (var i = 0u; i <= degree(); i++) {
+                        sum.d[i] += own.d[i];
+                    }
+                }
+                outcome[0] = first_root(sum);"
+);
 
 /// Balls of a scene: as many as a record holds.
 const BALLS: usize = 4;
@@ -166,11 +160,12 @@ impl Chord {
 
 /// What is wrong with the first roots found along rays, and how many rays hit and miss.
 ///
-/// f32 moves a sum of four strengths up to 1 by at most 4 · 128 · 2⁻²³, see `curves.rs`, and clipping it
-/// by 200 roundings of numbers up to 4: 2e-4 with something to spare. What was found must therefore not
-/// come before the oracle's root for a threshold that is as much lower, nor after that for one as much
-/// higher: touches and double roots need no exception. The ways of clipping that take a touch for a root,
-/// see there, do so from 60 w² below. Along the ray a root is as near as the threshold w says.
+/// f32 moves a sum of four strengths up to 1 by at most 4 · 128 · 2⁻²³ (`bernstein_forms_are_the_kernel`),
+/// and clipping it by 200 roundings of numbers up to 4: 2e-4 with a margin. What was found must therefore
+/// not come before the oracle's root for a threshold that is as much lower, nor after that for one as much
+/// higher: touches and double roots need no exception. The ways of clipping that take a touch for a root
+/// (`clipping_finds_the_first_root`) do so from 60 w² below, for four strengths. Along the ray a root is as
+/// near as the threshold w promises.
 fn judge(
     gpu: &Gpu,
     sums: &[Sum],
