@@ -161,6 +161,10 @@ impl IsoRenderer for Renderer {
         Ok(())
     }
 
+    fn frame_bytes(&self) -> u64 {
+        self.buffers.as_ref().map_or(0, SearchBuffers::bytes)
+    }
+
     /// Slot 0 is the entries of all tiles, 1 those of a tile that has too many, 2 the balls of an
     /// interval that too many reach.
     fn grow(&mut self, _: &Gpu, status: &FrameStatus) -> Result<bool, RenderError> {

@@ -71,6 +71,11 @@ impl SearchBuffers {
         encoder.clear_buffer(&self.states, 0, None);
     }
 
+    /// Bytes on the adapter.
+    pub(super) fn bytes(&self) -> u64 {
+        self.tiles.bytes() + self.states.size()
+    }
+
     /// Tiles of the picture.
     pub(super) fn tiles(&self) -> u32 {
         TileBins::tiles_of(self.size)
