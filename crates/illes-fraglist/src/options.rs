@@ -5,10 +5,10 @@ use metaball_core::Kernel;
 /// The polynomial between two separators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Piece {
-    /// The published cubic, made anew from the balls active in each piece.
+    /// The published cubic, from the balls active in each piece.
     Cubic,
-    /// The published cubic as the printed running sum in powers of t, which loses its digits away
-    /// from the eye.
+    /// The published cubic as the printed running sum in powers of t, which loses its digits with the
+    /// distance from the eye.
     AbsoluteCubic,
     /// The field itself, of degree four or six.
     Exact,
@@ -53,8 +53,8 @@ pub struct Options {
 }
 
 /// The largest [`Options::array_capacity`], and the default: separators of a ray's local array as it is
-/// compiled, `MOST` of `shaders/wgsl/illes_fraglist/records.wgsl`. Section 6 has "surely less than 100"; a ball has
-/// three.
+/// compiled, `MOST` of `shaders/wgsl/illes_fraglist/records.wgsl`. Section 6 has "surely less than 100";
+/// a ball has three.
 pub const ARRAY_CAPACITY: u32 = 96;
 
 /// The most balls that a ray may meet before its core: walks along its list must stay within the

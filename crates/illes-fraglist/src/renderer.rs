@@ -13,7 +13,7 @@ use crate::lists::ListStats;
 use crate::options::{Gather, Options, TILE_CAPACITY};
 use crate::pipelines::Pipelines;
 
-/// Entries of tiles that a renderer begins with: 1 MB.
+/// Entries of all tiles that the first canvas holds: 1 MB.
 const FIRST_ENTRIES: u32 = 1 << 18;
 
 /// Draws primary rays by fragment lists.

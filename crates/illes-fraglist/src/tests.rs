@@ -1,4 +1,4 @@
-//! Tests that look inside.
+//! Tests of what is not public.
 
 use glam::Vec3;
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};

@@ -11,9 +11,9 @@ use crate::options::MOST_LIST_CAPACITY;
 /// `shaders/wgsl/kanamori_peel/arrange.wgsl`.
 const LANES: u32 = 256;
 
-/// The most balls of a scene: targets keep indices as f32, exact up to 2²⁴, and one loop of
-/// `shaders/wgsl/kanamori_peel/register.wgsl` goes over their workgroups, of 65,535 iterations at most on software
-/// Vulkan.
+/// The most balls of a scene: targets keep indices as f32, exact up to 2²⁴, and a loop over workgroups
+/// of balls in `shaders/wgsl/kanamori_peel/register.wgsl` must stay below the 65,535 iterations of
+/// software Vulkan.
 pub const MOST_BALLS: usize = 65_000 * LANES as usize;
 
 /// Constants of a frame: WGSL's `Peeling` of `shaders/wgsl/kanamori_peel/frame.wgsl`.
@@ -112,7 +112,7 @@ impl Balls {
         4 * u64::from(self.count)
     }
 
-    /// What the last frame made of the balls.
+    /// Which balls the last frame drew, and which are around the eye.
     pub(crate) fn arranged(&self, gpu: &Gpu) -> Result<Arranged, RenderError> {
         Ok(gpu.read(&self.arranged)?[0])
     }
@@ -122,7 +122,7 @@ impl Balls {
         self.count.div_ceil(LANES)
     }
 
-    /// Sends what depends on the view, and forgets which balls the last view saw.
+    /// Sends what depends on the view, and clears the flags of the balls that the last view saw.
     pub(crate) fn begin(
         &self,
         gpu: &Gpu,

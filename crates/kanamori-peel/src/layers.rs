@@ -105,7 +105,7 @@ impl Layers {
         self.bytes
     }
 
-    /// The depth of the nearest kernel spheres, empty.
+    /// The depth of the nearest kernel spheres, cleared.
     pub(crate) fn kernels(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         depth(&self.kernel_depth, Some(1.0))
     }
@@ -115,12 +115,12 @@ impl Layers {
         depth(&self.kernel_depth, None)
     }
 
-    /// TmpTex of figure 6, no point anywhere.
+    /// A layer's points, cleared: TmpTex of figure 6.
     pub(crate) fn points(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
         Some(target(&self.points, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))
     }
 
-    /// Nearest first.
+    /// The depth of a layer's points, cleared.
     pub(crate) fn point_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         depth(&self.point_depth, Some(1.0))
     }

@@ -29,8 +29,8 @@ pub(crate) struct Pipelines {
 }
 
 /// What the search of an interval depends on: the modules with the kernel's Bernstein form and with
-/// the way of clipping. `None` for a kernel that is no polynomial along a ray. A kernel that shaders
-/// are not made for keeps the form of its family, which has a degree of its own.
+/// the way of clipping. `None` for a kernel that is no polynomial along a ray. Where shaders are not
+/// compiled for the kernel, the quartic has the form of all power kernels.
 pub(crate) fn search_modules(
     kernel: Kernel,
     form: KernelForm,

@@ -43,8 +43,8 @@ pub(crate) fn register(
 }
 
 /// Corners in clip space of a rectangle that covers a sphere; `None` where no primary ray can meet
-/// it. Twin of `cover_sphere` in `shaders/wgsl/core/cover.wgsl`, with its margin of a twentieth of a pixel for the
-/// rounding of the passes that draw.
+/// it. Twin of `cover_sphere` in `shaders/wgsl/core/cover.wgsl`, with its margin of a twentieth of a
+/// pixel for the rounding of the passes that draw.
 fn cover(view: &View, center: Vec3, radius: f32) -> Option<[DVec2; 2]> {
     let camera = view.camera();
     let to_center = center.as_dvec3() - camera.eye().as_dvec3();
@@ -65,8 +65,8 @@ fn cover(view: &View, center: Vec3, radius: f32) -> Option<[DVec2; 2]> {
     Some([DVec2::new(across[0], upwards[0]), DVec2::new(across[1], upwards[1])])
 }
 
-/// The slopes between which a circle can be seen from the origin along the second axis; `None`
-/// where it is behind. Those beyond `half` may be anything beyond.
+/// The slopes of the lines from the origin that bound a circle, of all lines that run forward along the
+/// second axis; `None` where the circle is behind. Slopes beyond `half` are not exact.
 fn tangents(center: DVec2, radius: f64, half: f64) -> Option<[f64; 2]> {
     let outside = 2.0 * half;
     let distance = center.length();
@@ -82,7 +82,7 @@ fn tangents(center: DVec2, radius: f64, half: f64) -> Option<[f64; 2]> {
         let ahead = center.y * along - center.x * turn;
         if aside.abs() >= outside * ahead { outside.copysign(aside) } else { aside / ahead }
     };
-    // A circle that crosses the plane of the eye has one tangent that points backwards and bounds nothing ahead.
+    // Of a circle across the first axis one tangent runs backwards and bounds nothing ahead.
     let is_ahead = center.y > radius;
     let low = if is_ahead || center.x > 0.0 { slope(-radius) } else { -outside };
     let high = if is_ahead || center.x < 0.0 { slope(radius) } else { outside };

@@ -1,4 +1,4 @@
-//! Tests that look inside.
+//! Tests of what is not public.
 
 mod baseline;
 mod curves;

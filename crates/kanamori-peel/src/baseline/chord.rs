@@ -1,6 +1,6 @@
-//! A ball seen along a ray.
+//! The chord that a ray has in a ball's support.
 
-/// A ball along a ray.
+/// A ball along a ray. Lengths count in the ray's t.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Chord {
     /// t of the centre's projection.
@@ -16,15 +16,17 @@ pub(super) struct Chord {
 }
 
 impl Chord {
+    /// t at which the ray enters the support; negative behind its start.
     pub(super) fn enter(&self) -> f64 {
         self.middle - self.half_squared.sqrt()
     }
 
+    /// t at which the ray leaves the support.
     pub(super) fn leave(&self) -> f64 {
         self.middle + self.half_squared.sqrt()
     }
 
-    /// Where the ray enters the kernel sphere, 0 with its start inside; infinite where it does not.
+    /// t at which the ray enters the kernel sphere, 0 with its start inside; infinite where it does not.
     pub(super) fn kernel_sphere(&self) -> f64 {
         if self.kernel_half_squared < 0.0 {
             return f64::INFINITY;

@@ -168,8 +168,10 @@ impl Leaf {
 
     /// Indices of the balls that the ray meets, and perhaps some that it misses by no more than rounding.
     ///
-    /// Q² from the vector between ray and centre is wrong by 2⁻²⁴ times 20·D·R + 8·R², D the distance
-    /// of the centre, for those that the ray nearly touches; D is at most |m| + R there.
+    /// The vector across the ray is q = o − m·d, o from the ray's start to the centre. Each of its terms
+    /// rounds by units of 2⁻²⁴ of |o|; the error of m is along d and counts in second order alone. Where
+    /// the ray nearly touches the sphere |q| is R, so that Q² = R² − q² errs by less than 2⁻²⁴ times
+    /// 20·|o|·R + 8·R², and |o| is at most |m| + R.
     fn met(&self, ray: &Ray) -> impl Iterator<Item = u32> {
         let component = |axis: usize| f32x4::splat(ray.direction[axis]);
         let offset = |axis: usize| self.center[axis] - f32x4::splat(ray.origin[axis]);
@@ -227,7 +229,7 @@ struct Slabs {
 
 impl Slabs {
     fn new(ray: &Ray) -> Self {
-        // No division by zero: a slope this steep leaves every box of a legal scene at once.
+        // No division by zero: across a legal scene a component this small moves a ray by less than rounding.
         let away = |d: f32| if d.abs() < 1e-20 { 1e-20f32.copysign(d) } else { d };
         let direction = ray.direction;
         let direction = Vec3::new(away(direction.x), away(direction.y), away(direction.z));
