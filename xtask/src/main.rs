@@ -1,6 +1,6 @@
 //! A thin front: sets the machine up, then runs cargo and the harness.
 //!
-//! `cargo xtask test` passes the tests; every other word goes on to the binary `metaball` in
+//! `cargo xtask test` passes the tests; all other arguments go to the binary `metaball` in
 //! release mode: `cargo xtask compare`, `cargo xtask render molecule`.
 
 mod adapter;

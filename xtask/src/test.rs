@@ -17,7 +17,7 @@ struct Step {
     environment: Option<(&'static str, &'static str)>,
 }
 
-/// Runs all steps, the quick ones first, and stops at the first that fails. Arguments go on to
+/// Runs all steps, the quick ones first, and stops at the first that fails. Arguments go to
 /// `cargo test`, which then is the only step.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
     let adapter = adapter::ensure()?;

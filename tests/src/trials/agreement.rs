@@ -8,7 +8,7 @@ use libtest_mimic::{Failed, Trial};
 use metaball_core::Scene;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
 
-use super::gallery::{picture, room};
+use super::fixtures::{fixture, picture};
 use super::{on_gpu, scenes};
 
 pub(super) fn trials() -> Vec<Trial> {
@@ -44,12 +44,12 @@ fn with_oracle(
     scene: &'static str,
     configuration: &Configuration,
 ) -> Result<(), Failed> {
-    let room = room(gpu, scene)?;
-    if let Some(reason) = configuration.technique.refusal(&room.scene.scene) {
-        return refuses(gpu, configuration.renderer(false).as_mut(), &room.scene.scene, reason);
+    let fixture = fixture(gpu, scene)?;
+    if let Some(reason) = configuration.technique.refusal(&fixture.scene.scene) {
+        return refuses(gpu, configuration.renderer(false).as_mut(), &fixture.scene.scene, reason);
     }
     pass(
-        &room
+        &fixture
             .judge
             .judge(&picture(gpu, scene, configuration)?, &Terms::of(&configuration.technique)),
     )
@@ -73,9 +73,9 @@ fn with_each_other(
     ours: &Configuration,
     theirs: &Configuration,
 ) -> Result<(), Failed> {
-    let room = room(gpu, scene)?;
+    let fixture = fixture(gpu, scene)?;
     let is_refused = |configuration: &Configuration| {
-        configuration.technique.refusal(&room.scene.scene).is_some()
+        configuration.technique.refusal(&fixture.scene.scene).is_some()
     };
     if is_refused(ours) || is_refused(theirs) {
         // There is one picture at most; that the other is refused is tested with the oracle.
@@ -83,5 +83,5 @@ fn with_each_other(
     }
     let (first, second) = (picture(gpu, scene, ours)?, picture(gpu, scene, theirs)?);
     let promise = |configuration: &Configuration| configuration.technique.promise();
-    pass(&room.judge.compare((&first, promise(ours)), (&second, promise(theirs))))
+    pass(&fixture.judge.compare((&first, promise(ours)), (&second, promise(theirs))))
 }

@@ -5,7 +5,7 @@ use metaball_core::gpu::Gpu;
 use metaball_core::{Hit, Scene};
 
 use super::agreement::pass;
-use super::gallery::{picture, room};
+use super::fixtures::{fixture, picture};
 use super::{SIZE, draw, on_gpu, preset, renderer, terms_of};
 
 /// The method whose picture is spoilt, and a scene with enough in it to spoil.
@@ -51,11 +51,11 @@ pub(super) fn rejects_spoilt(
     method: &'static str,
     spoil: Spoil,
 ) -> Result<(), Failed> {
-    let room = room(gpu, scene)?;
+    let fixture = fixture(gpu, scene)?;
     let mut hits = picture(gpu, scene, &preset(method)?)?.to_vec();
-    pass(&room.judge.judge(&hits, &terms_of(method)?))?;
+    pass(&fixture.judge.judge(&hits, &terms_of(method)?))?;
     spoil(&mut hits);
-    match pass(&room.judge.judge(&hits, &terms_of(method)?)) {
+    match pass(&fixture.judge.judge(&hits, &terms_of(method)?)) {
         Ok(()) => Err("the spoilt picture passed".into()),
         Err(_) => Ok(()),
     }
@@ -63,8 +63,8 @@ pub(super) fn rejects_spoilt(
 
 /// A structure that lost the ball most in view.
 fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
-    let room = room(gpu, SCENE)?;
-    let scene = room.scene;
+    let fixture = fixture(gpu, SCENE)?;
+    let scene = fixture.scene;
     let eye = scene.camera.eye();
     let nearest = |ball: &metaball_core::Metaball| ball.center.distance(eye) - ball.radius;
     let mut balls: Vec<_> = scene.scene.balls().collect();
@@ -73,21 +73,21 @@ fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
     let without = Scene::new(balls, scene.scene.kernel(), scene.scene.threshold())?;
 
     let mut renderer = renderer(METHOD)?;
-    let picture = draw(gpu, renderer.as_mut(), &without, &room.view)?;
-    match pass(&room.judge.judge(&picture.hits, &terms_of(METHOD)?)) {
+    let picture = draw(gpu, renderer.as_mut(), &without, &fixture.view)?;
+    match pass(&fixture.judge.judge(&picture.hits, &terms_of(METHOD)?)) {
         Ok(()) => Err("the picture without a ball passed".into()),
         Err(_) => Ok(()),
     }
 }
 
 fn rejects_between_methods(gpu: &Gpu) -> Result<(), Failed> {
-    let room = room(gpu, SCENE)?;
+    let fixture = fixture(gpu, SCENE)?;
     let hits = picture(gpu, SCENE, &preset(METHOD)?)?;
     let promise = terms_of(METHOD)?.promise;
-    pass(&room.judge.compare((&hits, promise), (&hits, promise)))?;
+    pass(&fixture.judge.compare((&hits, promise), (&hits, promise)))?;
     let mut shifted = hits.to_vec();
     shifted.rotate_right(1);
-    match pass(&room.judge.compare((&hits, promise), (&shifted, promise))) {
+    match pass(&fixture.judge.compare((&hits, promise), (&shifted, promise))) {
         Ok(()) => Err("the shifted picture passed".into()),
         Err(_) => Ok(()),
     }

@@ -1,4 +1,4 @@
-//! How far down a tree rays went, as counting shaders say, against walks through the tree itself.
+//! How deep in a tree rays went, as counting shaders report it, against walks through the tree itself.
 
 use fbvh::{EMPTY, Kind, LEAF, Tree};
 use glam::{DVec3, Vec3};
@@ -19,11 +19,11 @@ pub(super) fn trials() -> Vec<Trial> {
             as_walked(gpu, method, &bench.scene, &view_of(&bench)?)
         })
     });
-    let crowded = on_gpu("depth::of_rays_that_waited".to_owned(), |gpu| {
-        let (scene, view) = behind_a_crowd()?;
+    let suspended = on_gpu("depth::of_suspended_rays".to_owned(), |gpu| {
+        let (scene, view) = behind_a_large_leaf()?;
         as_walked(gpu, "fbvh", &scene, &view)
     });
-    scattered.into_iter().chain([crowded]).collect()
+    scattered.into_iter().chain([suspended]).collect()
 }
 
 /// Each pixel's depth lies between those of two walks, which agree about most rays. Depths that were
@@ -56,9 +56,9 @@ fn as_walked(gpu: &Gpu, method: &str, scene: &Scene, view: &View) -> Result<(), 
     if strange(&depths) > 0 {
         return Err(format!("{} rays went to other depths", strange(&depths)).into());
     }
-    let told = walks.iter().filter(|(least, most)| least == most).count();
-    if tree.kind() != Kind::ModifiedBvh && 10 * told < 9 * walks.len() {
-        return Err(format!("walks tell the depth of {told} rays of {}", walks.len()).into());
+    let known = walks.iter().filter(|(least, most)| least == most).count();
+    if tree.kind() != Kind::ModifiedBvh && 10 * known < 9 * walks.len() {
+        return Err(format!("walks agree about {known} rays of {}", walks.len()).into());
     }
     depths.rotate_right(1);
     if strange(&depths) == 0 {
@@ -81,11 +81,11 @@ fn deepest(tree: &Tree, ray: &Ray, end: f32, margin: f64) -> u32 {
     };
     let mut most = 0;
     let mut left = vec![(tree.root(), 0)];
-    while let Some((place, above)) = left.pop() {
-        if place == EMPTY || place & LEAF != 0 {
+    while let Some((index, above)) = left.pop() {
+        if index == EMPTY || index & LEAF != 0 {
             continue;
         }
-        let node = &tree.nodes()[place as usize];
+        let node = &tree.nodes()[index as usize];
         most = most.max(above + 1);
         let children = [(node.left, node.left_bounds()), (node.right, node.right_bounds())];
         let entered = children.into_iter().filter(|(_, bounds)| enters(bounds));
@@ -94,19 +94,19 @@ fn deepest(tree: &Tree, ray: &Ray, end: f32, margin: f64) -> u32 {
     most
 }
 
-/// Balls behind 1,200 that no plane can part: rays wait in the crowd's leaf, and find what lies behind it
-/// when they are taken up again.
-fn behind_a_crowd() -> Result<(Scene, View), Failed> {
-    let crowd = (0..1200).map(|index| Metaball {
+/// Balls behind 1,200 that no plane can part: rays are suspended in the leaf of those, and find what lies
+/// behind it when they resume.
+fn behind_a_large_leaf() -> Result<(Scene, View), Failed> {
+    let large_leaf = (0..1200).map(|index| Metaball {
         center: Vec3::new(1e-4 * (index % 7) as f32, 1e-4 * (index % 11) as f32, 0.0),
         radius: 1.0 + 1e-3 * (index % 13) as f32,
         strength: 1e-4,
     });
     let behind = (0..200).map(|index| {
-        let place = DVec3::new(0.618, 0.755, 0.57) * f64::from(index);
-        Metaball::new((place.fract() * 4.0 - DVec3::new(2.0, 2.0, 6.0)).as_vec3(), 0.4)
+        let in_cube = (DVec3::new(0.618, 0.755, 0.57) * f64::from(index)).fract();
+        Metaball::new((in_cube * 4.0 - DVec3::new(2.0, 2.0, 6.0)).as_vec3(), 0.4)
     });
-    let scene = Scene::new(crowd.chain(behind), Kernel::QUARTIC, 0.3)?;
+    let scene = Scene::new(large_leaf.chain(behind), Kernel::QUARTIC, 0.3)?;
     let camera = Camera::look_at(Vec3::new(0.3, 0.2, 3.0), Vec3::ZERO, Vec3::Y, 40.0)?;
     Ok((scene, View::new(camera, 20, 15)?))
 }

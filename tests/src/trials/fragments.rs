@@ -1,4 +1,4 @@
-//! Fragment lists: that the terms for a cubic in the field's place still catch what is wrong, and what
+//! Fragment lists: that the terms for a cubic instead of the field still reject what is wrong, and what
 //! becomes of more separators than an array holds.
 
 use harness::judge::Judge;
@@ -8,7 +8,7 @@ use metaball_core::reference::Oracle;
 
 use super::agreement::pass;
 use super::canaries::{Spoil, rejects_spoilt};
-use super::gallery::room;
+use super::fixtures::fixture;
 use super::{SIZE, draw, on_gpu, renderer, terms_of, view_of};
 
 const METHOD: &str = "illes";
@@ -23,26 +23,30 @@ pub(super) fn trials() -> Vec<Trial> {
     let mut trials: Vec<_> = spoilt
         .into_iter()
         .map(|(name, spoil)| {
-            on_gpu(format!("stand_in::rejects_{name}"), move |gpu| {
+            on_gpu(format!("fragments::cubic::rejects_{name}"), move |gpu| {
                 rejects_spoilt(gpu, SCENE, METHOD, spoil)
             })
         })
         .collect();
-    trials.push(on_gpu("stand_in::most_rays_are_promised".to_owned(), most_rays_are_promised));
+    trials.push(on_gpu(
+        "fragments::cubic::most_rays_are_promised".to_owned(),
+        most_rays_are_promised,
+    ));
     for (method, is_marked) in [("illes", true), ("illes-exact", true), ("illes-robust", false)] {
-        let name = format!("crowd::{method}");
-        trials.push(on_gpu(name, move |gpu| crowd(gpu, method, is_marked)));
+        let name = format!("fragments::overlap_beyond_capacity::{method}");
+        trials.push(on_gpu(name, move |gpu| overlap_beyond_capacity(gpu, method, is_marked)));
     }
     trials
 }
 
 /// A promise that holds for few rays is none.
 fn most_rays_are_promised(gpu: &Gpu) -> Result<(), Failed> {
-    let room = room(gpu, SCENE)?;
+    let fixture = fixture(gpu, SCENE)?;
     let promise = terms_of(METHOD)?.promise;
-    let rays = room.judge.rays().iter().zip(room.judge.truths());
-    let promised = rays.filter(|(ray, truth)| promise.holds(&room.scene.scene, ray, truth)).count();
-    let needed = room.judge.rays().len() * 8 / 10;
+    let rays = fixture.judge.rays().iter().zip(fixture.judge.truths());
+    let promised =
+        rays.filter(|(ray, truth)| promise.holds(&fixture.scene.scene, ray, truth)).count();
+    let needed = fixture.judge.rays().len() * 8 / 10;
     if promised < needed {
         return Err(format!("needed {needed} rays, found {promised}").into());
     }
@@ -50,7 +54,7 @@ fn most_rays_are_promised(gpu: &Gpu) -> Result<(), Failed> {
 }
 
 /// 65 balls over one point: the published array of 96 separators holds 32.
-fn crowd(gpu: &Gpu, method: &str, is_marked: bool) -> Result<(), Failed> {
+fn overlap_beyond_capacity(gpu: &Gpu, method: &str, is_marked: bool) -> Result<(), Failed> {
     let mut cases = bench_scenes::cases().iter();
     let case = cases.find(|known| known.name == "overlapping").ok_or("no such case")?;
     let scene = case.scene(65.0)?;

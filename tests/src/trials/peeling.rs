@@ -12,50 +12,50 @@ use metaball_core::{Hit, Metaball, Ray, Verdict, View};
 use super::agreement::pass;
 use super::{draw, load, on_gpu, renderer, terms_of, view_of};
 
-/// What must become of a case, beside that no promise is broken.
+/// What must become of a case, besides that no promise is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     /// Every clear ray has its own right answer.
     Right,
-    /// Some rays are late or lost, and nothing says so.
-    Lost,
-    /// Some rays show a support in place of the surface and say so, and nothing else is wrong.
+    /// Some rays are late or miss, and nothing reports it.
+    SilentlyWrong,
+    /// Some rays show a support instead of the surface and are marked so, and nothing else is wrong.
     Fallback,
 }
 
 pub(super) fn trials() -> Vec<Trial> {
-    use Outcome::{Fallback, Lost, Right};
+    use Outcome::{Fallback, Right, SilentlyWrong};
     let cases = [
-        // Figure 9a: one index comes back, the other ball is lost, and nothing tells: the check that
+        // Figure 9a: one index is returned, the other ball is lost, and nothing reports it: the check that
         // would is left out, for its cost.
-        ("coincident", 2.0, Lost, Right),
-        ("coincident", 14.0, Lost, Right),
+        ("coincident", 2.0, SilentlyWrong, Right),
+        ("coincident", 14.0, SilentlyWrong, Right),
         // Figure 9b: a list of 14, and none. The supports drawn are marked.
         ("overlapping", 14.0, Right, Right),
         ("overlapping", 15.0, Fallback, Right),
         ("overlapping", 65.0, Fallback, Right),
-        // Figure 9c: peeling goes on until it ends; searching passes them by.
+        // Figure 9c: peeling continues until it ends; the search skips them.
         ("veiled", 65.0, Right, Right),
         ("veiled", 140.0, Right, Right),
     ];
     let mut trials = Vec::new();
     for (case, value, published, robust) in cases {
         for (method, outcome) in [("kanamori", published), ("kanamori-robust", robust)] {
-            let name = format!("section_7::{case}={value}::{method}");
+            let name = format!("peeling::special_case::{case}={value}::{method}");
             trials.push(on_gpu(name, move |gpu| special_case(gpu, case, value, method, outcome)));
         }
     }
     for case in bench_scenes::cases() {
-        let name = format!("section_7::every_{}::kanamori-robust", case.name);
+        let name = format!("peeling::every_value::{}::kanamori-robust", case.name);
         trials.push(on_gpu(name, move |gpu| every_value(gpu, case)));
     }
-    trials.push(on_gpu("section_6::error::kanamori".to_owned(), error_of_figure_1));
+    trials.push(on_gpu("peeling::error_of_figure_1::kanamori".to_owned(), error_of_figure_1));
     trials
 }
 
 /// The robust variant has the oracle's verdict on every clear ray of every value of a case. At a
 /// threshold of 1e-12 the surface is 1e-6 of a radius inside the rims, which f32 cannot tell from
-/// outside: there, and only there, it may say that it does not know.
+/// outside: there, and only there, it may be undecided.
 fn every_value(gpu: &Gpu, case: &Case) -> Result<(), Failed> {
     let mut renderer = renderer("kanamori-robust")?;
     for &value in case.values {
@@ -64,8 +64,9 @@ fn every_value(gpu: &Gpu, case: &Case) -> Result<(), Failed> {
         let picture = draw(gpu, renderer.as_mut(), &made.scene, &view)?;
         let truths = Oracle::new(&made.scene).first_hits(&picture.rays);
         for (pixel, (truth, hit)) in truths.iter().zip(&picture.hits).enumerate() {
-            let is_unknown = hit.verdict == Verdict::Undecided && made.scene.threshold() < 1e-11;
-            if truth.verdict != hit.verdict && !truth.is_ambiguous() && !is_unknown {
+            let may_be_undecided =
+                hit.verdict == Verdict::Undecided && made.scene.threshold() < 1e-11;
+            if truth.verdict != hit.verdict && !truth.is_ambiguous() && !may_be_undecided {
                 let case = &made.name;
                 return Err(format!("{case}, pixel {pixel}: {truth:?} against {hit:?}").into());
             }
@@ -96,7 +97,7 @@ fn special_case(
     let (marked, silent): (Vec<_>, Vec<_>) = excused.partition(|(_, hit)| hit.fallback);
     let found = match (marked.len(), silent.len()) {
         (0, 0) => Outcome::Right,
-        (0, _) => Outcome::Lost,
+        (0, _) => Outcome::SilentlyWrong,
         (_, 0) => Outcome::Fallback,
         both => return Err(format!("needed {needed:?}, found (marked, silent) {both:?}").into()),
     };
@@ -107,11 +108,12 @@ fn special_case(
     for (ray, hit) in marked {
         let Ray { origin, direction, .. } = picture.rays[ray];
         let point = origin.as_dvec3() + f64::from(hit.t) * direction.as_dvec3();
-        let beside = |ball: Metaball| {
+        let distance = |ball: Metaball| {
             (point.distance(ball.center.as_dvec3()) / f64::from(ball.radius) - 1.0).abs()
         };
         // A dozen roundings of numbers up to the five radii between the eye and a support's far end.
-        if scene.scene.balls().map(beside).fold(f64::MAX, f64::min) > 64.0 * f64::from(f32::EPSILON)
+        if scene.scene.balls().map(distance).fold(f64::MAX, f64::min)
+            > 64.0 * f64::from(f32::EPSILON)
         {
             return Err(format!("pixel {ray}: {hit:?} is on no support").into());
         }

@@ -15,8 +15,8 @@ pub(super) fn trials() -> Vec<Trial> {
     methods().iter().map(|method| trial(method.name)).collect()
 }
 
-/// Equal balls of strength 1 without colours: all there is to leave out. A strength read in place of
-/// the same number moves no bit. A driver may multiply in another order once it knows a number, and
+/// Equal balls of strength 1 without colours: all there is to leave out. A strength that is read instead of
+/// compiled in moves no bit. A driver may multiply in another order once it knows a number, and
 /// depth peeling has a form of its own for the quartic: that moves t by rounding.
 fn finds_the_same(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     const ROUNDING: f32 = 1e-5;
@@ -41,7 +41,7 @@ fn finds_the_same(gpu: &Gpu, method: &str) -> Result<(), Failed> {
         if differing > 0 {
             return Err(format!("{generality:?}: {differing} pixels differ").into());
         }
-        // A radius has its place beside the centre, used or not.
+        // A radius is stored beside the centre, used or not.
         if taken < bytes || (taken == bytes && generality != Generality::Radii) {
             return Err(format!("{generality:?}: {taken} bytes, as specialised {bytes}").into());
         }

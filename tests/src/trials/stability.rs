@@ -1,5 +1,5 @@
 //! The quick values of every stability case: each method fails where it is stated to, and nowhere
-//! else, and says so where it is stated to.
+//! else, and reports it where it is stated to.
 
 use bench_scenes::cases;
 use experiments::stability::cell::{Cell, Outcome};
@@ -21,9 +21,9 @@ pub(super) fn trials() -> Vec<Trial> {
             on_gpu(name, move |gpu| is_as_stated(gpu, &configuration))
         })
         .collect();
-    for (name, crowds) in CROWDED {
-        let crowded = format!("stability::crowded::{name}");
-        trials.push(on_gpu(crowded, move |gpu| is_as_stated_in_the_largest(gpu, name, crowds)));
+    for (method, cases) in LARGEST {
+        let name = format!("stability::largest_values::{method}");
+        trials.push(on_gpu(name, move |gpu| is_as_stated_in_the_largest(gpu, method, cases)));
     }
     trials.push(on_gpu("stability::canary".to_owned(), notices_a_broken_promise));
     trials
@@ -45,8 +45,8 @@ fn is_as_stated(gpu: &Gpu, configuration: &Configuration) -> Result<(), Failed> 
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
-/// A thousand balls and more over each ray: rays wait for many dispatches, and each has to get on.
-const CROWDED: &[(&str, &[&str])] = &[
+/// A thousand balls and more over each ray: rays are suspended over many dispatches, and each has to advance.
+const LARGEST: &[(&str, &[&str])] = &[
     ("fbvh-certified", &["coincident", "overlapping"]),
     ("kanamori-robust", &["coincident", "overlapping"]),
     ("illes-robust", &["coincident", "overlapping"]),
@@ -55,11 +55,11 @@ const CROWDED: &[(&str, &[&str])] = &[
 ];
 
 /// At a case's largest value everything is as stated.
-fn is_as_stated_in_the_largest(gpu: &Gpu, name: &str, crowds: &[&str]) -> Result<(), Failed> {
+fn is_as_stated_in_the_largest(gpu: &Gpu, name: &str, known: &[&str]) -> Result<(), Failed> {
     let configuration =
         stability_configurations().into_iter().find(|configuration| configuration.name == name);
     let mut stand = Stand::new(gpu, [configuration.ok_or("no such configuration")?]);
-    for case in cases().iter().filter(|case| crowds.contains(&case.name)) {
+    for case in cases().iter().filter(|case| known.contains(&case.name)) {
         let most = *case.values.last().ok_or("a case without values")?;
         let needed = expected(name, case, most);
         for found in stand.attempt(case, most, |_| None)? {

@@ -6,7 +6,7 @@ use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 
 use super::agreement::pass;
-use super::gallery::{picture, room};
+use super::fixtures::{fixture, picture};
 use super::{on_gpu, preset, scenes, terms_of, tree_options};
 
 pub(super) fn trials() -> Vec<Trial> {
@@ -22,13 +22,13 @@ pub(super) fn trials() -> Vec<Trial> {
 
 /// The CPU's hits keep the promise of the method, and are the shader's wherever it promises any.
 fn hit_for_hit(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(), Failed> {
-    let room = room(gpu, scene)?;
+    let fixture = fixture(gpu, scene)?;
     let options = tree_options(method)?;
-    let tree = Tree::build(&room.scene.scene, &options)?;
-    let tracer = Tracer::new(&tree, &room.scene.scene, TraceOptions::DEFAULT);
-    let hits = tracer.first_hits(room.judge.rays());
-    pass(&room.judge.judge(&hits, &terms_of(method)?))?;
+    let tree = Tree::build(&fixture.scene.scene, &options)?;
+    let tracer = Tracer::new(&tree, &fixture.scene.scene, TraceOptions::DEFAULT);
+    let hits = tracer.first_hits(fixture.judge.rays());
+    pass(&fixture.judge.judge(&hits, &terms_of(method)?))?;
     let promise = terms_of(method)?.promise;
     let picture = picture(gpu, scene, &preset(method)?)?;
-    pass(&room.judge.compare((&hits, promise), (&picture, promise)))
+    pass(&fixture.judge.compare((&hits, promise), (&picture, promise)))
 }

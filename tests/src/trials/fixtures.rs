@@ -1,4 +1,4 @@
-//! Scenes with their truth, and pictures of them: made once, shared by all trials.
+//! Test scenes with their truth, and pictures of them: made once, shared by all trials.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -14,18 +14,18 @@ use metaball_core::{Hit, View};
 
 use super::{draw, load, view_of};
 
-/// A scene in its view, with the truth about every ray.
-pub(super) struct Room {
+/// A known scene in its view, with the truth about every ray.
+pub(super) struct Fixture {
     pub(super) scene: &'static BenchScene,
     pub(super) view: View,
     pub(super) judge: Judge<'static>,
 }
 
-/// The room of a known scene.
-pub(super) fn room(gpu: &Gpu, scene: &'static str) -> Result<Arc<Room>, Failed> {
-    static ROOMS: Shelf<&'static str, Room> = Shelf::new();
-    ROOMS.get(scene, || {
-        // Rooms stand to the end of the process.
+/// The fixture of a known scene.
+pub(super) fn fixture(gpu: &Gpu, scene: &'static str) -> Result<Arc<Fixture>, Failed> {
+    static FIXTURES: Cache<&'static str, Fixture> = Cache::new();
+    FIXTURES.get(scene, || {
+        // Fixtures live to the end of the process.
         let scene: &'static BenchScene = Box::leak(Box::new(load(scene)?));
         let oracle: &'static Oracle<'_> = Box::leak(Box::new(Oracle::new(&scene.scene)));
         let view = view_of(scene)?;
@@ -33,7 +33,7 @@ pub(super) fn room(gpu: &Gpu, scene: &'static str) -> Result<Arc<Room>, Failed> 
         let targets = Targets::new(gpu, view.width(), view.height(), false, false)?;
         Frame::begin(gpu, &targets, &view)?.finish()?;
         let rays = Vec::leak(targets.read_rays(gpu, &view)?);
-        Ok(Room { scene, view, judge: Judge::new(&scene.scene, oracle, rays) })
+        Ok(Fixture { scene, view, judge: Judge::new(&scene.scene, oracle, rays) })
     })
 }
 
@@ -43,38 +43,38 @@ pub(super) fn picture(
     scene: &'static str,
     configuration: &Configuration,
 ) -> Result<Arc<Vec<Hit>>, Failed> {
-    static PICTURES: Shelf<(&'static str, String), Vec<Hit>> = Shelf::new();
-    let room = room(gpu, scene)?;
+    static PICTURES: Cache<(&'static str, String), Vec<Hit>> = Cache::new();
+    let fixture = fixture(gpu, scene)?;
     PICTURES.get((scene, configuration.name.clone()), || {
         let mut renderer = configuration.renderer(false);
-        let picture = draw(gpu, renderer.as_mut(), &room.scene.scene, &room.view)?;
-        if picture.rays != room.judge.rays() {
+        let picture = draw(gpu, renderer.as_mut(), &fixture.scene.scene, &fixture.view)?;
+        if picture.rays != fixture.judge.rays() {
             return Err("two frames of one view have different rays".into());
         }
         Ok(picture.hits)
     })
 }
 
-/// Things by name, each made by whoever asks first. What could not be made stays so.
-struct Shelf<K, V> {
-    places: OnceLock<Mutex<HashMap<K, Arc<Place<V>>>>>,
+/// Values by key, each made when it is first needed. A failure is kept as well.
+struct Cache<K, V> {
+    slots: OnceLock<Mutex<HashMap<K, Arc<Slot<V>>>>>,
 }
 
-type Place<V> = OnceLock<Result<Arc<V>, String>>;
+type Slot<V> = OnceLock<Result<Arc<V>, String>>;
 
-impl<K: Eq + Hash, V> Shelf<K, V> {
+impl<K: Eq + Hash, V> Cache<K, V> {
     const fn new() -> Self {
-        Self { places: OnceLock::new() }
+        Self { slots: OnceLock::new() }
     }
 
-    fn get(&self, name: K, make: impl FnOnce() -> Result<V, Failed>) -> Result<Arc<V>, Failed> {
-        let places = self.places.get_or_init(Mutex::default);
-        // The lock is not held while a thing is made: other things can be made meanwhile.
-        let place = {
-            let mut places = places.lock().unwrap_or_else(PoisonError::into_inner);
-            Arc::clone(places.entry(name).or_default())
+    fn get(&self, key: K, make: impl FnOnce() -> Result<V, Failed>) -> Result<Arc<V>, Failed> {
+        let slots = self.slots.get_or_init(Mutex::default);
+        // The lock is not held while a value is made: others can be made meanwhile.
+        let slot = {
+            let mut slots = slots.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(slots.entry(key).or_default())
         };
-        let made = place.get_or_init(|| {
+        let made = slot.get_or_init(|| {
             let text = |failed: Failed| failed.message().unwrap_or("failed").to_owned();
             make().map(Arc::new).map_err(text)
         });
