@@ -5,7 +5,7 @@ use std::process::Command;
 
 use crate::run::{say, succeeds, to_the_end};
 
-/// What a machine without a Vulkan driver is told.
+/// Shown on a machine without a Vulkan driver.
 const HOW_TO_INSTALL: &str = "\
 No Vulkan driver was found. Install your graphics card's, or Mesa's software one:
   Debian, Ubuntu   sudo apt-get install mesa-vulkan-drivers libvulkan1

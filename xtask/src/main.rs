@@ -1,4 +1,4 @@
-//! A thin front: sets the machine up, then runs cargo and the harness.
+//! A thin front: sets the machine up, then runs cargo or the program `metaball`.
 //!
 //! `cargo xtask test` passes the tests; all other arguments go to the binary `metaball` in
 //! release mode: `cargo xtask compare`, `cargo xtask render molecule`.
