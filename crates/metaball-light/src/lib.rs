@@ -57,9 +57,9 @@
 //! frame, so every method can be lit that far. All others need a method with a
 //! [`RayTracer`](metaball_core::gpu::RayTracer) that answers their queries, and are an error without.
 //!
-//! One file does one thing: `path_tracer` holds the state of a picture, `waves` the sequence of batches and
-//! passes, `passes` the pipelines, `buffers` what they bind, and `twins` the structs that they share with
-//! `shaders/wgsl/light`.
+//! `path_tracer` holds the state of a picture, `waves` the sequence of batches and passes, `passes` the
+//! pipelines, `buffers` what they bind, and `twins` the structs that they share with `shaders/wgsl/light`. There
+//! each effect is a file of its own: `phong`, `lamps`, `occlusion`, `mirror`, `fluid`, `floor` and `environment`.
 
 mod buffers;
 mod depth_cue;

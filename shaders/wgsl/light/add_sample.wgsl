@@ -1,7 +1,7 @@
-// Adds the sample that is complete to the film.
+// Adds a complete sample to the film.
 
-#import light::path::{film, paths}
 #import core::view::{in_picture, pixel_at}
+#import light::path::{film, paths}
 
 @compute @workgroup_size(8, 8)
 fn add_sample(@builtin(global_invocation_id) id: vec3<u32>) {

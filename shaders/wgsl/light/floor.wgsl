@@ -1,9 +1,9 @@
 // A level floor below the scene, matt, seen from above. Far from its middle it takes on the colour of the
 // horizon behind it, so that it has no edge.
 
+#import core::view::NO_LIMIT
 #import light::environment::{ambient, environment}
 #import light::path::{lamps, settings}
-#import core::view::NO_LIMIT
 
 const UP: vec3<f32> = vec3(0.0, 1.0, 0.0);
 // Every other tile has this share of the floor's colour.

@@ -2,8 +2,8 @@
 // followed backwards from the eye.
 
 #import batch::free_ray::FreeRay
-#import core::hit::Hit
 #import batch::list::Listed
+#import core::hit::Hit
 
 // Twin of `twins::Settings` in metaball-light.
 struct Settings {
@@ -26,13 +26,13 @@ struct Settings {
     sample: u32,
     samples: u32,
     seed: u32,
-    // Bands of cel shading; 0 for smooth shades.
+    // Bands of cel shading; 0 for smooth shading.
     bands: u32,
     // Columns and rows of the environment's image.
     columns: u32,
     rows: u32,
-    // The point of the floor below the scene, world space, and how far around it the floor goes before it
-    // is lost in the surroundings, scene units; 0 for no floor.
+    // The point of the floor below the scene, world space, and the distance around it at which 1/e of the
+    // floor is left, scene units; 0 for no floor.
     floor_middle: vec3<f32>,
     floor_reach: f32,
     // Its colour, linear, and the side of its tiles, scene units; 0 for none.

@@ -1,9 +1,9 @@
 // Takes the answers to shadow and occlusion rays, and sends the next ones.
 
+#import batch::list::place_of
 #import core::hit::{MISS, UNDECIDED}
 #import light::path::{answered_shadow_rays, path_rays, paths, shadow_hits}
 #import light::scatter::continue_path
-#import batch::list::place_of
 
 @compute @workgroup_size(64)
 fn resolve_shadow_rays(

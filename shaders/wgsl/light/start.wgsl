@@ -1,10 +1,10 @@
 // Begins a sample of the picture: one path a pixel, from the eye through a point of the pixel.
 
 #import batch::free_ray::{FreeRay, FIRST_HIT, no_ray}
-#import light::path::{path_rays, paths, settings, shadow_rays, Path, OUTSIDE}
-#import light::sampling::point_in_square
 #import core::make_ray::direction_through
 #import core::view::{in_picture, pixel_at, view, NO_LIMIT}
+#import light::path::{path_rays, paths, settings, shadow_rays, Path, OUTSIDE}
+#import light::sampling::point_in_square
 
 @compute @workgroup_size(8, 8)
 fn start_paths(@builtin(global_invocation_id) id: vec3<u32>) {

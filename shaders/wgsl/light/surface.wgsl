@@ -1,15 +1,15 @@
 // Takes the answers to the paths' own rays: light of the surroundings where they leave the scene, and a
 // surface where they hit, or the floor where that is nearer.
 
-#import shade::base::base_color
 #import batch::free_ray::ANSWERED
+#import batch::list::place_of
 #import core::hit::{clearance_of, hits, unfold, HIT, INSIDE, MISS}
+#import core::view::NO_LIMIT
 #import light::environment::environment
 #import light::floor::{floor_along, floor_base, floor_clearance, horizon, presence, UP}
 #import light::path::{answered, path_rays, paths, settings, Path, OUTSIDE, WITHIN}
 #import light::scatter::{continue_path, light_without_rays}
-#import batch::list::place_of
-#import core::view::NO_LIMIT
+#import shade::base::base_color
 
 @compute @workgroup_size(64)
 fn meet_surface(
