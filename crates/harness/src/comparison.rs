@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use bench_scenes::{BenchScene, mean_overlap};
-use metaball_core::gpu::{Gpu, Picture, RenderError, Shading, Targets};
+use metaball_core::gpu::{Gpu, RenderError, Shading, Targets};
 use metaball_core::reference::Oracle;
-use metaball_core::{Hit, Verdict, View};
+use metaball_core::{Hit, Picture, Verdict, View};
 
 use crate::configuration::Configuration;
 use crate::heat::heat_map;

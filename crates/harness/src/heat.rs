@@ -1,7 +1,6 @@
 //! Heat maps of the difference to the reference.
 
-use metaball_core::Hit;
-use metaball_core::gpu::Image;
+use metaball_core::{Hit, Image};
 
 use crate::reference::Reference;
 use crate::score::{Finding, Judgement};

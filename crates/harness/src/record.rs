@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use metaball_core::gpu::{AdapterReport, Work};
+use metaball_core::Work;
+use metaball_core::gpu::AdapterReport;
 use serde::{Deserialize, Serialize};
 
 use crate::machine::Provenance;

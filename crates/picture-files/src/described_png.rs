@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 use ::png::{BitDepth, ColorType, Decoder, Encoder};
-use metaball_core::gpu::Image;
+use metaball_core::Image;
 
 use crate::PictureFileError;
 use crate::png::check_size;

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
-use metaball_core::gpu::Image;
+use metaball_core::Image;
 
 use crate::PictureFileError;
 

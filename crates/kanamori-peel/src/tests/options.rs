@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use glam::Vec3;
-use metaball_core::gpu::{Gpu, IsoRenderer, RenderError, Targets, Work, render};
-use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, View};
+use metaball_core::gpu::{Gpu, IsoRenderer, RenderError, Targets, render};
+use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, View, Work};
 
 use super::random::Random;
 use crate::{Clipping, Options, Outline, Registration, Renderer};

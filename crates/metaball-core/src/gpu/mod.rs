@@ -189,7 +189,6 @@ pub use status::FrameStatus;
 pub use targets::{TILE, Targets, ViewUniform, frame_layout, free_ray_layout};
 pub use tile_bins::{TileBinning, TileBins};
 
-pub use crate::{Image, Picture, Shaded, ValueRange, Work, WorkKind};
 /// A WGSL file of a method.
 pub use metaball_shaders::Module as ShaderModule;
 /// The version of wgpu that this crate is built on.

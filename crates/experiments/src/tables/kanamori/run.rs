@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use bench_scenes::{Overrides, load};
 use kanamori_peel::baseline::Baseline;
-use metaball_core::gpu::{Gpu, Targets, Work, render};
-use metaball_core::{Hit, Ray, Scene, View};
+use metaball_core::gpu::{Gpu, Targets, render};
+use metaball_core::{Hit, Ray, Scene, View, Work};
 use serde::{Deserialize, Serialize};
 
 use super::plan::{Bout, Part};

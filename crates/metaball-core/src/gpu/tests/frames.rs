@@ -5,8 +5,8 @@ use std::time::Duration;
 use glam::Vec3;
 
 use super::sphere::{HEIGHT, Sphere, colored, hits, scene, targets, view, view_from};
-use crate::gpu::{Frame, FrameStatus, Gpu, IsoRenderer, RenderError, Targets, Work, render};
-use crate::{Hit, Kernel, Scene, Verdict, View};
+use crate::gpu::{Frame, FrameStatus, Gpu, IsoRenderer, RenderError, Targets, render};
+use crate::{Hit, Kernel, Scene, Verdict, View, Work};
 
 /// The hits of the unit sphere in f64, along the exact rays.
 fn exact_hits(view: &View) -> Vec<Option<(f64, Vec3)>> {

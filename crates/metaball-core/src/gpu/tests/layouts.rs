@@ -4,10 +4,8 @@ use metaball_shaders::{StructLayout, Variant, compose, host_layout, struct_layou
 
 use crate::gpu::ray_list::ListHead;
 use crate::gpu::spheres::CoreSphere;
-use crate::gpu::{
-    FrameStatus, FreeRay, KernelRead, PackedRay, SceneHeader, ValueRange, ViewUniform, Work,
-};
-use crate::{PackedHit, Support};
+use crate::gpu::{FrameStatus, FreeRay, KernelRead, PackedRay, SceneHeader, ViewUniform};
+use crate::{PackedHit, Support, ValueRange, Work};
 
 fn wgsl(module: &str, name: &str) -> StructLayout {
     let variant = Variant::trials().next().expect("there are variants");

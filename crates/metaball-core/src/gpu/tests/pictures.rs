@@ -3,10 +3,8 @@
 use glam::Vec3;
 
 use super::sphere::{HEIGHT, Sphere, WIDTH, colored, scene, targets, view, view_from};
-use crate::gpu::{
-    Gpu, Image, IsoRenderer, Picture, RenderError, Shaded, Shading, WorkKind, render,
-};
-use crate::{Kernel, Metaball, Scene, View};
+use crate::gpu::{Gpu, IsoRenderer, RenderError, Shading, render};
+use crate::{Image, Kernel, Metaball, Picture, Scene, Shaded, View, WorkKind};
 
 const MIDDLE: (u32, u32) = (WIDTH / 2, HEIGHT / 2);
 
