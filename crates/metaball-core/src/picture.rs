@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::{Hit, WorkKind};
+use crate::{Color, Hit, WorkKind};
 
 /// What a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -31,6 +31,13 @@ pub struct Image {
     pub height: u32,
     /// Red, green, blue (sRGB-encoded) and 255, row by row from the top left: 4 bytes a pixel.
     pub rgba: Vec<u8>,
+}
+
+impl Image {
+    /// The image of so many pixels across and down, row by row from the top left.
+    pub fn new(width: u32, height: u32, pixels: &[Color]) -> Self {
+        Self { width, height, rgba: bytemuck::cast_slice(pixels).to_vec() }
+    }
 }
 
 /// An image and its scale.

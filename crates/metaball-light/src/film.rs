@@ -1,7 +1,7 @@
 //! A picture in linear light.
 
 use glam::Vec3;
-use metaball_core::Image;
+use metaball_core::{Color, Image};
 
 /// Linear light of each pixel, row by row from the top left.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,18 +19,10 @@ impl Film {
     /// light. What is brighter than white is white.
     pub fn develop(&self, exposure: f32) -> Image {
         let gain = exposure.exp2();
-        let pixel = |light: &Vec3| {
-            let byte = |channel: f32| (0.5 + 255.0 * encode(gain * channel)) as u8;
-            [byte(light.x), byte(light.y), byte(light.z), 255]
-        };
-        let rgba = self.light.iter().flat_map(pixel).collect();
-        Image { width: self.width, height: self.height, rgba }
+        let pixel = |light: &Vec3| Color::from_linear(gain * *light);
+        let pixels: Vec<Color> = self.light.iter().map(pixel).collect();
+        Image::new(self.width, self.height, &pixels)
     }
-}
-
-fn encode(linear: f32) -> f32 {
-    let light = linear.clamp(0.0, 1.0);
-    if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

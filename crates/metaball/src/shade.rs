@@ -57,7 +57,7 @@ pub(crate) fn draw(
     picture: CpuPicture,
 ) -> Shaded {
     let camera = view.camera();
-    let range = (picture == CpuPicture::Depth).then(|| depths(hits));
+    let range = (picture == CpuPicture::Depth).then(|| ValueRange::of_distances(hits));
     let scale = range.unwrap_or_default();
     let colors = Colors::new(scene);
     let surface = |ray: &Ray, hit: &Hit| match (picture, hit.verdict) {
@@ -70,18 +70,15 @@ pub(crate) fn draw(
         Verdict::Hit | Verdict::Inside => surface(ray, hit),
         Verdict::Undecided => ALARM,
     };
-    let pixel = |(index, (ray, hit)): (usize, (&Ray, &Hit))| {
-        bytes(match picture {
-            CpuPicture::Phong | CpuPicture::Color => {
-                encode(light(index as u32 / view.width(), ray, hit))
-            }
-            CpuPicture::Normal => normal(camera, hit),
-            CpuPicture::Depth => grey(hit, scale),
-        })
+    let pixel = |(index, (ray, hit)): (usize, (&Ray, &Hit))| match picture {
+        CpuPicture::Phong | CpuPicture::Color => {
+            Color::from_linear(light(index as u32 / view.width(), ray, hit))
+        }
+        CpuPicture::Normal => stored(normal(camera, hit)),
+        CpuPicture::Depth => stored(grey(hit, scale)),
     };
-    let pixels: Vec<[u8; 4]> = rays.par_iter().zip(hits).enumerate().map(pixel).collect();
-    let rgba = pixels.into_flattened();
-    Shaded { image: Image { width: view.width(), height: view.height(), rgba }, range }
+    let pixels: Vec<Color> = rays.par_iter().zip(hits).enumerate().map(pixel).collect();
+    Shaded { image: Image::new(view.width(), view.height(), &pixels), range }
 }
 
 /// Phong's model with a warm key light over the left shoulder, a cool fill light from the right, and
@@ -122,15 +119,6 @@ fn grey(hit: &Hit, scale: ValueRange) -> Vec3 {
     Vec3::splat(1.0 - 0.85 * share.clamp(0.0, 1.0))
 }
 
-/// Distances of the nearest and the farthest hit; 0 and 0 where there is none.
-fn depths(hits: &[Hit]) -> ValueRange {
-    let depths = || hits.iter().filter(|hit| hit.is_hit()).map(|hit| hit.t);
-    ValueRange {
-        low: depths().reduce(f32::min).unwrap_or(0.0),
-        high: depths().reduce(f32::max).unwrap_or(0.0),
-    }
-}
-
 /// A coloured scene's balls, sorted to find those around a point.
 struct Colors<'a> {
     scene: &'a Scene,
@@ -168,41 +156,20 @@ impl<'a> Colors<'a> {
             if depth > 0.0 {
                 let strength = self.scene.strengths().map_or(1.0, |strengths| strengths[ball]);
                 let weight = strength * self.scene.kernel().value_at_depth(depth);
-                blended += weight * decode(colors[ball]);
+                blended += weight * colors[ball].to_linear();
                 total += weight;
             }
         }
         // Methods store what they blend in eight bits before it is lit.
-        decode_bytes(bytes(encode(blended / f32::max(total, 1e-30))))
+        Color::from_linear(blended / f32::max(total, 1e-30)).to_linear()
     }
 }
 
-fn decode(color: Color) -> Vec3 {
-    let [red, green, blue] = color.to_srgb();
-    decode_bytes([red, green, blue, 255])
-}
-
-/// Linear light from encoded channels (IEC 61966-2-1).
-fn decode_bytes([red, green, blue, _]: [u8; 4]) -> Vec3 {
-    Vec3::from([red, green, blue].map(|byte| {
-        let encoded = f32::from(byte) / 255.0;
-        if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-    }))
-}
-
-/// Encoded channels from linear light, clamped to \[0, 1\].
-fn encode(linear: Vec3) -> Vec3 {
-    Vec3::from(linear.to_array().map(|light| {
-        let light = light.clamp(0.0, 1.0);
-        if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
-    }))
-}
-
-/// A pixel as it is stored: WGSL's `pack4x8unorm`.
-fn bytes(encoded: Vec3) -> [u8; 4] {
+/// A pixel of channels that are not light, clamped to \[0, 1\] and rounded as WGSL's `pack4x8unorm`.
+fn stored(channels: Vec3) -> Color {
     let [red, green, blue] =
-        encoded.to_array().map(|channel| (0.5 + 255.0 * channel.clamp(0.0, 1.0)).floor() as u8);
-    [red, green, blue, 255]
+        channels.to_array().map(|channel| (0.5 + 255.0 * channel.clamp(0.0, 1.0)) as u8);
+    Color::srgb(red, green, blue)
 }
 
 #[cfg(test)]
@@ -250,14 +217,6 @@ mod tests {
         for picture in [Picture::Spheres, Picture::Work(WorkKind::Balls)] {
             let error = CpuPicture::of(picture).expect_err("no");
             assert!(error.to_string().contains("needs a graphics adapter"), "{error}");
-        }
-    }
-
-    #[test]
-    fn srgb_goes_both_ways() {
-        for byte in 0..=255 {
-            let gray = decode_bytes([byte, byte, byte, 255]);
-            assert_eq!(bytes(encode(gray)), [byte, byte, byte, 255]);
         }
     }
 }
