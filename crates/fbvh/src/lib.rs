@@ -87,21 +87,18 @@
 //! `gpu` adds the module `gpu`: all three structures as [`metaball_core`] renderers on wgpu. Without it
 //! nothing here knows of graphics cards, except that [`Node`] and [`Leaf`] are laid out for them.
 
-mod ball;
-mod build;
+mod builder;
 mod field;
-mod fit;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod node;
 mod options;
-mod plane;
 mod stats;
 mod trace;
 mod tree;
 mod validate;
 
-pub use build::BuildError;
+pub use builder::BuildError;
 pub use field::Field;
 pub use node::{EMPTY, LEAF, Leaf, MAX_DEPTH, Node};
 pub use options::{Boxes, Classes, Cost, Fitting, Kind, Options, Structure};

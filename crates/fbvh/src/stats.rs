@@ -1,12 +1,10 @@
 //! How large a tree is.
 
-use metaball_core::Aabb;
-
 use crate::Tree;
 use crate::node::{Leaf, Node};
 use crate::tree::Child;
 
-/// What a tree is made of; tables and plots of the paper are drawn over these.
+/// How large a tree is: the columns of the paper's tables and plots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stats {
     /// Interior nodes.
@@ -15,9 +13,9 @@ pub struct Stats {
     pub leaves: usize,
     /// Entries of all lists, own and split.
     pub list_entries: usize,
-    /// Memory of nodes, leaves and lists, bytes: what is uploaded.
+    /// Memory of nodes, leaves and lists, bytes: all that is uploaded.
     pub bytes: usize,
-    /// Interior nodes on the longest way from the root to a leaf.
+    /// Interior nodes on the longest path from the root to a leaf.
     pub depth: usize,
     /// Own balls of the leaves.
     pub own: Spread,
@@ -44,7 +42,7 @@ impl Spread {
 }
 
 impl Tree {
-    /// Counts what the tree is made of.
+    /// Counts nodes, leaves and list entries.
     pub fn stats(&self) -> Stats {
         let lists = || (0..self.leaf_count()).map(|leaf| self.leaf_balls(leaf));
         Stats {
@@ -69,22 +67,5 @@ impl Tree {
             true
         });
         deepest
-    }
-
-    /// Shows the children of every node, from the root on and left before right, with their boxes
-    /// and the number of nodes above them. Goes no deeper where the visitor says false.
-    pub(crate) fn visit(&self, mut visitor: impl FnMut(&Child, &Aabb, usize) -> bool) {
-        let mut open = vec![(self.root, self.bounds, 0)];
-        while let Some((reference, bounds, depth)) = open.pop() {
-            let Some(child) = Child::read(reference) else { continue };
-            if !visitor(&child, &bounds, depth) {
-                continue;
-            }
-            if let Child::Node(node) = child {
-                let node = &self.nodes[node];
-                open.push((node.right, node.right_bounds(), depth + 1));
-                open.push((node.left, node.left_bounds(), depth + 1));
-            }
-        }
     }
 }

@@ -2,9 +2,8 @@
 
 use metaball_core::Aabb;
 
-use crate::build::{self, BuildError};
+use crate::Kind;
 use crate::node::{EMPTY, LEAF, Leaf, Node};
-use crate::{Field, Kind, Options};
 
 /// A bounding volume hierarchy over the balls of one field, for one kernel and threshold.
 ///
@@ -20,16 +19,7 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// Builds the structure that the options describe. Runs on rayon's current pool; the result is
-    /// the same bit for bit whatever the number of threads.
-    ///
-    /// # Errors
-    /// Names the ball that cannot be placed, or says how many list entries were too many.
-    pub fn build(field: &impl Field, options: &Options) -> Result<Self, BuildError> {
-        build::build(field, options)
-    }
-
-    /// Which of the two structures this is, and so how a ray must go through it.
+    /// Which of the structures this is, and so how rays are traced through it.
     pub fn kind(&self) -> Kind {
         self.kind
     }
@@ -70,15 +60,40 @@ impl Tree {
         self.leaves.len() - 1
     }
 
-    /// The list of a leaf: its own balls, then its split balls. Panics when there is no such leaf.
+    /// The list of a leaf: its own balls, then its split balls, as indices in the field.
+    ///
+    /// # Panics
+    /// When there is no such leaf.
     pub fn leaf_balls(&self, leaf: usize) -> (&[u32], &[u32]) {
-        let Leaf { first, own, .. } = self.leaves[leaf];
-        let end = self.leaves[leaf + 1].first;
-        self.lists[first as usize..end as usize].split_at(own as usize)
+        self.list(leaf).split_at(self.leaves[leaf].own as usize)
+    }
+
+    /// The whole list of a leaf.
+    #[inline]
+    pub(crate) fn list(&self, leaf: usize) -> &[u32] {
+        let (first, end) = (self.leaves[leaf].first, self.leaves[leaf + 1].first);
+        &self.lists[first as usize..end as usize]
+    }
+
+    /// Calls the visitor with every node and leaf in preorder, with its box and the number of nodes
+    /// above it. Does not descend where the visitor returns false.
+    pub(crate) fn visit(&self, mut visitor: impl FnMut(&Child, &Aabb, usize) -> bool) {
+        let mut open = vec![(self.root, self.bounds, 0)];
+        while let Some((reference, bounds, depth)) = open.pop() {
+            let Some(child) = Child::read(reference) else { continue };
+            if !visitor(&child, &bounds, depth) {
+                continue;
+            }
+            if let Child::Node(node) = child {
+                let node = &self.nodes[node];
+                open.push((node.right, node.right_bounds(), depth + 1));
+                open.push((node.left, node.left_bounds(), depth + 1));
+            }
+        }
     }
 }
 
-/// What a child reference points at.
+/// What a child reference refers to.
 pub(crate) enum Child {
     Node(usize),
     Leaf(usize),

@@ -5,7 +5,7 @@ use std::iter;
 use bytemuck::Zeroable;
 use metaball_core::Aabb;
 
-use super::BuildError;
+use super::error::BuildError;
 use crate::Tree;
 use crate::node::{EMPTY, LEAF, Leaf, Node};
 use crate::options::Kind;
@@ -16,13 +16,13 @@ pub(super) struct Branch {
 }
 
 /// Nodes and leaves in preorder. References count from the piece's own first node and first leaf,
-/// and may go on into the pieces behind.
+/// and may reach into the pieces behind.
 #[derive(Default)]
 struct Piece {
-    /// A node whose parts turned out to hold no surface, or only one of them, stays vacant and is
-    /// taken out in the end.
+    /// A node of whose parts none or only one turns out to hold surface stays vacant and is removed in
+    /// the end.
     nodes: Vec<Node>,
-    /// `first` holds the length of the leaf's list for now.
+    /// Until [`Branch::finish`], `first` is the length of the leaf's list.
     leaves: Vec<Leaf>,
     lists: Vec<u32>,
 }
@@ -38,8 +38,8 @@ const VACANT: Node = Node {
     first_right_leaf: 0,
 };
 
-/// Moves a reference behind so many nodes and leaves.
-fn moved(reference: u32, nodes: usize, leaves: usize) -> u32 {
+/// A reference, shifted by so many nodes and leaves.
+fn shifted(reference: u32, nodes: usize, leaves: usize) -> u32 {
     if reference & LEAF != 0 { reference + leaves as u32 } else { reference + nodes as u32 }
 }
 
@@ -125,11 +125,11 @@ impl Branch {
         Some((self.push_leaf(&whole, iter::empty(), iter::empty()), whole))
     }
 
-    /// Puts a subtree behind this one, and returns its root's new reference.
+    /// Appends a subtree to this one, and returns its root's new reference.
     pub(super) fn append(&mut self, other: Self, root: Option<(u32, Aabb)>) -> Option<(u32, Aabb)> {
         let (nodes, leaves) = (self.node_count(), self.leaf_count());
         self.pieces.extend(other.pieces);
-        root.map(|(root, bounds)| (moved(root, nodes, leaves), bounds))
+        root.map(|(root, bounds)| (shifted(root, nodes, leaves), bounds))
     }
 
     /// Lays the pieces out as one tree, without the vacant nodes, and with the lengths of lists
@@ -155,7 +155,7 @@ impl Branch {
     }
 }
 
-/// All nodes but the vacant ones, and the numbers that all have been given.
+/// All nodes but the vacant ones, and the new number of each.
 fn lay_nodes(pieces: &[Piece]) -> (Vec<Node>, Vec<u32>) {
     let all = || pieces.iter().flat_map(|piece| &piece.nodes);
     let mut numbers = Vec::with_capacity(pieces.iter().map(|piece| piece.nodes.len()).sum());
@@ -169,7 +169,7 @@ fn lay_nodes(pieces: &[Piece]) -> (Vec<Node>, Vec<u32>) {
     let mut nodes = Vec::with_capacity(kept as usize);
     let (mut first_node, mut first_leaf) = (0, 0);
     for piece in pieces {
-        let renumbered = |reference: u32| match moved(reference, first_node, first_leaf) {
+        let renumbered = |reference: u32| match shifted(reference, first_node, first_leaf) {
             leaf if leaf & LEAF != 0 => leaf,
             node => numbers[node as usize],
         };

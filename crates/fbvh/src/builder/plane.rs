@@ -5,19 +5,19 @@ use std::iter;
 use glam::{Vec3A, Vec3Swizzles};
 use metaball_core::Aabb;
 
-use crate::ball::Ball;
+use super::ball::Ball;
 use crate::options::Cost;
 
 /// The most bins that [`Options::bins`](crate::Options::bins) may ask for.
-pub(crate) const MAX_BINS: usize = 16;
+pub(super) const MAX_BINS: usize = 16;
 
 /// A plane across an axis, and what cutting there is expected to cost.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Plane {
-    pub(crate) axis: usize,
-    pub(crate) at: f32,
+pub(super) struct Plane {
+    pub(super) axis: usize,
+    pub(super) at: f32,
     /// ρ(A)C(A) + ρ(B)C(B), without the traversal step.
-    pub(crate) cost: f32,
+    pub(super) cost: f32,
 }
 
 /// Balls of one bin: how many, and the box around them.
@@ -47,7 +47,7 @@ impl Bin {
 /// The best of the planes between the bins of a Fitted node. A ball counts on each side that its
 /// support reaches; the sides' boxes are cut at the plane. What fitting will take off them is left
 /// out: to know it for each plane costs more than the two in a hundred fewer balls a ray gains.
-pub(crate) fn cut_space(balls: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) -> Option<Plane> {
+pub(super) fn cut_space(balls: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) -> Option<Plane> {
     // A ball is counted in the bin where it begins and in the one where it ends: those that begin
     // before a plane reach its left side, those that end behind it the right one.
     let mut begin = [[0i32; 4]; MAX_BINS];
@@ -102,7 +102,7 @@ pub(crate) fn cut_space(balls: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) 
 
 /// The best of the planes between the bins of own balls' centres, for a node of the modified BVH:
 /// each ball counts on the side of its centre, and each side has the box around its supports.
-pub(crate) fn cut_centers(own: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) -> Option<Plane> {
+pub(super) fn cut_centers(own: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) -> Option<Plane> {
     let centers = centers_of(own);
     let (low, high) = (Vec3A::from(centers.min), Vec3A::from(centers.max));
     let scale = Vec3A::splat(bins as f32) / (high - low);
@@ -139,7 +139,7 @@ pub(crate) fn cut_centers(own: &[Ball], bounds: &Aabb, bins: usize, cost: Cost) 
 
 /// What a given plane across a Fitted node costs, its sides not fitted. `None` where the plane is
 /// not inside the box.
-pub(crate) fn weigh(
+pub(super) fn weigh(
     balls: &[Ball],
     bounds: &Aabb,
     (axis, at): (usize, f32),
@@ -158,7 +158,7 @@ pub(crate) fn weigh(
 }
 
 /// The two parts of a box on either side of a plane that crosses it.
-pub(crate) fn cut(bounds: &Aabb, axis: usize, at: f32) -> (Aabb, Aabb) {
+pub(super) fn cut(bounds: &Aabb, axis: usize, at: f32) -> (Aabb, Aabb) {
     let (mut left, mut right) = (*bounds, *bounds);
     left.max[axis] = at;
     right.min[axis] = at;
@@ -166,7 +166,7 @@ pub(crate) fn cut(bounds: &Aabb, axis: usize, at: f32) -> (Aabb, Aabb) {
 }
 
 /// Where a plane cuts a box: a box without thickness.
-pub(crate) fn face(bounds: &Aabb, plane: &Plane) -> Aabb {
+pub(super) fn face(bounds: &Aabb, plane: &Plane) -> Aabb {
     let mut face = *bounds;
     face.min[plane.axis] = plane.at;
     face.max[plane.axis] = plane.at;
@@ -174,7 +174,7 @@ pub(crate) fn face(bounds: &Aabb, plane: &Plane) -> Aabb {
 }
 
 /// The box around the centres.
-pub(crate) fn centers_of(balls: &[Ball]) -> Aabb {
+pub(super) fn centers_of(balls: &[Ball]) -> Aabb {
     let (mut min, mut max) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
     for ball in balls {
         min = min.min(ball.center());
@@ -184,7 +184,7 @@ pub(crate) fn centers_of(balls: &[Ball]) -> Aabb {
 }
 
 /// The axis along which the box is longest; the first of them.
-pub(crate) fn longest_axis(bounds: &Aabb) -> usize {
+pub(super) fn longest_axis(bounds: &Aabb) -> usize {
     let side = bounds.extent();
     (1..3).fold(0, |longest, axis| if side[axis] > side[longest] { axis } else { longest })
 }

@@ -1,54 +1,56 @@
-//! Dividing a node of the classified tree: not in the paper.
+//! Dividing a node of the certified tree: not in the paper.
 //!
 //! Over a box every ball's part of the field is largest at the box's nearest point to the centre and
 //! smallest at its farthest, so sums of the two bound the field. A box in which the field stays at T
 //! or below is dropped; one in which it is above T everywhere is a solid leaf, without a list. Only
 //! boxes that could hold surface are divided: the cost follows the surface, not the volume.
 //!
-//! Sums of either kind end as soon as they are above T. So what is certainly solid, and what is
-//! certainly not empty, is told from a few balls; and balls that do not hold the whole box, most of
-//! them in all but the smallest boxes, add nothing to the least. Boxes that are neither, which are only
-//! divided further, need no certainty: f32 tells most of them, and f64 is asked where it tells of more.
+//! Sums of either kind end as soon as they are above T. So a few balls suffice to show that a box is
+//! solid, or that it is not empty; and balls that do not contain the whole box, most of them in all but
+//! the smallest boxes, add nothing to the lower bound. Boxes that are neither, which are only divided
+//! further, need no certainty: f32 decides most of them, and f64 confirms only what f32 finds solid or
+//! empty.
 
 use glam::{DVec3, Vec3, Vec3A};
 use metaball_core::Aabb;
 
-use super::{Builder, Division, Halves, Part, divide};
-use crate::ball::Ball;
-use crate::fit::{Reach, keep_reaching};
+use super::Builder;
+use super::ball::Ball;
+use super::fit::{Reach, keep_reaching};
+use super::part::{Division, Halves, Part, divide};
+use super::plane::{Plane, centers_of, cut, cut_space, face, longest_axis};
 use crate::options::{Classes, Cost};
-use crate::plane::{Plane, centers_of, cut, cut_space, face, longest_axis};
 
 /// Sums of n ≤ 2³² non-negative f64 terms of a few products each err by less than this share.
 const ROUNDING: f64 = 1e-6;
 
-/// A plane that saves less than this share of a leaf's cost tells nothing: the middle of the longest
-/// side is as good, and parts surface from interior sooner.
+/// A plane whose cost is more than this share of a leaf's saves too little: the middle of the longest
+/// side is as good, and separates surface from interior sooner.
 const WORTHWHILE: f32 = 0.85;
 
-/// Nor is there any such plane in boxes of fewer least radii than this: most balls reach across the
-/// box. So none is looked for.
-const TELLING: f32 = 3.0;
+/// Boxes whose side is fewer least radii than this have no such plane, since most balls reach across
+/// the box: none is looked for.
+const BINNED: f32 = 3.0;
 
-/// A cut that puts more than this share of the balls on both sides is not worth its two lists in a box
-/// of up to twice as many balls as a leaf has anyway.
-const TWICE: f32 = 0.6;
+/// A cut that leaves more than this share of the balls on both sides is not worth its two lists in a
+/// box of at most twice as many balls as a leaf may have.
+const SHARED: f32 = 0.6;
 
-/// A list of more than so many full leaves is long: it is worth boxes that are shorter than the smallest
-/// side asks, by the cube root of how many leaves it would fill. Most such boxes turn out to be solid or
-/// empty.
+/// A list of more than so many full leaves is long: its box may be cut below the smallest side, by the
+/// cube root of the number of leaves that it would fill. Most such boxes turn out to be solid or empty.
 const LONG: f32 = 3.0;
 
-/// Balls are a pile where their centres are in a box of at most this share of the least radius: at the
-/// smallest side that boxes are cut down to, hardly one of them would be off any list.
-const PILED: f32 = 0.125;
+/// Balls count as coincident where their centres are in a box of at most this share of the least
+/// radius: even in boxes of the smallest side, nearly all of them would be on every list.
+const COINCIDENT: f32 = 0.125;
 
-/// A box of more least radii than this is cut whatever its list: in f32 a point of it would be known
-/// too badly for the least ball, to 2⁻²² of the box.
+/// A box of more least radii than this is cut whatever its list: in f32 a point of it is known to 2⁻²²
+/// of the box, too little for the least ball.
 const WIDEST: f32 = 16.0;
 
 /// Lists hold what reaches the box widened by this share of its longest side, and solid boxes are solid
-/// to there: tracers may look so far past its faces (`slack` in `fbvh/relative_ray.wgsl`).
+/// in that: rounding may take a tracer so far past its faces (`slack` in
+/// `shaders/wgsl/fbvh/relative_ray.wgsl`).
 const WIDENED: f32 = 4e-6;
 
 impl Builder {
@@ -60,7 +62,7 @@ impl Builder {
         part: &Part,
     ) -> Division {
         let list = &pool[part.list.clone()];
-        // What has been found solid has no list.
+        // A node that was found solid has no list.
         if list.is_empty() {
             return Division::Leaf(0..0);
         }
@@ -76,8 +78,8 @@ impl Builder {
         let face = widened(&face(&part.bounds, &plane), side);
         let is_wide = side > WIDEST * radii.0;
         let (left, right) = divide(pool, &part.list, &plane, &face);
-        let tells_nothing = left.len().min(right.len()) == part.list.len();
-        if tells_nothing && !is_wide && is_pile(&pool[part.list.clone()]) {
+        let separates_none = left.len().min(right.len()) == part.list.len();
+        if separates_none && !is_wide && are_coincident(&pool[part.list.clone()]) {
             return Division::Leaf(part.list.clone());
         }
         let (left_bounds, right_bounds) = cut(&part.bounds, plane.axis, plane.at);
@@ -93,7 +95,7 @@ impl Builder {
         }
     }
 
-    /// Takes the list off a part that is solid, and fits any other to where its balls can make a
+    /// Drops the list of a part that is solid, and fits any other to where its balls can make a
     /// surface. `None` where they cannot.
     pub(super) fn classify(&self, pool: &mut [Ball], part: &Part) -> Option<Part> {
         let list = &mut pool[part.list.clone()];
@@ -113,11 +115,11 @@ impl Builder {
         if bounds != part.bounds {
             kept = keep_reaching(list, &widened(&bounds, bounds.extent().max_element()));
         }
-        // No list means solid; so what nothing reaches must not stay.
+        // No list means solid; so a part that nothing reaches must not stay.
         (kept > 0).then(|| Part { list: part.list.start..part.list.start + kept, bounds, ..*part })
     }
 
-    /// The plane to cut the node at; `None` where it had better be a leaf.
+    /// The plane to cut the node at; `None` where it is to be a leaf.
     fn classified_plane(
         &self,
         classes: &Classes,
@@ -131,7 +133,7 @@ impl Builder {
         let smallest = classes.smallest_side / if filled > LONG { filled.cbrt() } else { 1.0 };
         let is_short = |radius: f32| side < smallest * radius;
         let is_wide = side > WIDEST * least;
-        // The mean lies between the extremes, and takes longer.
+        // The mean lies between the extremes, and takes longer to compute.
         let is_small = list.len() <= classes.leaf_size as usize
             || is_short(least)
             || is_short(largest) && is_short(self.mean_radius(list, &part.bounds));
@@ -144,21 +146,21 @@ impl Builder {
                 .filter(|plane| plane.cost < WORTHWHILE * list.len() as f32)
         };
         let middle = Plane { axis, at: part.bounds.center()[axis], cost: f32::MAX };
-        let plane = if side > TELLING * least { binned().unwrap_or(middle) } else { middle };
+        let plane = if side > BINNED * least { binned().unwrap_or(middle) } else { middle };
         // Neighbouring floats have no middle.
         let (low, high) = (part.bounds.min[plane.axis], part.bounds.max[plane.axis]);
-        let tells = is_wide || Self::tells_apart(classes, list, part, &plane);
-        (low < plane.at && plane.at < high && tells).then_some(plane)
+        let is_worthwhile = is_wide || Self::shortens_lists(classes, list, part, &plane);
+        (low < plane.at && plane.at < high && is_worthwhile).then_some(plane)
     }
 
     /// Whether a cut shortens the lists, where a box is almost small enough for a leaf.
-    fn tells_apart(classes: &Classes, list: &[Ball], part: &Part, plane: &Plane) -> bool {
+    fn shortens_lists(classes: &Classes, list: &[Ball], part: &Part, plane: &Plane) -> bool {
         if list.len() > 2 * classes.leaf_size as usize {
             return true;
         }
         let face = face(&part.bounds, plane);
         let crossing = list.iter().filter(|ball| ball.reaches(&face)).count();
-        crossing as f32 <= TWICE * list.len() as f32
+        crossing as f32 <= SHARED * list.len() as f32
     }
 
     /// Whether the field is certainly at T or below in the whole box.
@@ -185,7 +187,7 @@ impl Builder {
 
     /// Whether the field is certainly above T in the whole box.
     fn is_solid(&self, list: &[Ball], bounds: &Aabb) -> bool {
-        // A ball that adds anything everywhere holds the box.
+        // A ball that adds anything everywhere contains the box.
         if self.radius.is_some_and(|radius| bounds.extent().length() > 2.0 * radius) {
             return false;
         }
@@ -231,7 +233,7 @@ impl Builder {
         sum / weights.max(f32::MIN_POSITIVE)
     }
 
-    /// The same in f32: for what is made certain by [`Builder::part_at`], or need not be.
+    /// [`Builder::part_at`] in f32, for what that confirms, or what need not be certain.
     #[inline]
     fn near_part_at(&self, ball: &Ball, offset: Vec3A) -> f32 {
         let radius = ball.radius();
@@ -247,16 +249,16 @@ impl Builder {
     }
 }
 
-/// The box that a tracer may look at for one whose longest side is `side`.
+/// The box grown by [`WIDENED`] of the longest side.
 fn widened(bounds: &Aabb, side: f32) -> Aabb {
     let wider = Vec3::splat(WIDENED * side);
     Aabb { min: bounds.min - wider, max: bounds.max + wider }
 }
 
-/// Whether the balls are almost in one place: cut where they all are, a box gets parts that all of
-/// them reach, again and again.
-fn is_pile(list: &[Ball]) -> bool {
-    centers_of(list).extent().max_element() <= PILED * radii(list).0
+/// Whether the centres almost coincide: every part of the box, however often it is cut, is then
+/// reached by all of the balls.
+fn are_coincident(list: &[Ball]) -> bool {
+    centers_of(list).extent().max_element() <= COINCIDENT * radii(list).0
 }
 
 /// The least and the largest radius.
@@ -273,7 +275,7 @@ mod tests {
 
     use super::*;
     use crate::Options;
-    use crate::build::common;
+    use crate::builder::common;
 
     /// A box among balls of radii that differ by up to 10,000. Coordinates are few, so that faces go
     /// through centres, rims and each other.
@@ -286,13 +288,13 @@ mod tests {
             1 => prop::sample::select(vec![1e-2f32, 1.0, 1.5, 1e2]),
         ];
         let ball = (point(), radius, 0.1f32..3.0);
-        let pile = prop::sample::select(vec![1usize, 1, 1, 40]);
+        let copies = prop::sample::select(vec![1usize, 1, 1, 40]);
         let side = || prop_oneof![0.0f32..2.0, Just(0.0f32), Just(0.5f32), 1e-4f32..1e-2];
         let sides = [side(), side(), side()].prop_map(Vec3::from);
-        (prop::collection::vec(ball, 1..12), pile, point(), sides).prop_map(
-            |(balls, pile, min, sides)| {
-                let piled = balls.into_iter().flat_map(|ball| std::iter::repeat_n(ball, pile));
-                let numbered = piled.enumerate().map(|(index, (center, radius, strength))| {
+        (prop::collection::vec(ball, 1..12), copies, point(), sides).prop_map(
+            |(balls, copies, min, sides)| {
+                let copied = balls.into_iter().flat_map(|ball| std::iter::repeat_n(ball, copies));
+                let numbered = copied.enumerate().map(|(index, (center, radius, strength))| {
                     Ball::new(center, radius, strength, index as u32)
                 });
                 (numbered.collect(), Aabb { min, max: min + sides })

@@ -1,10 +1,11 @@
 //! Dividing a node of the Fitted BVH: section 5.1, algorithm 2.
 
-use super::{Builder, Division, Halves, MEDIAN_FROM, Part, divide};
-use crate::ball::{Ball, partition};
-use crate::fit::{Reach, discard, keep_reaching};
+use super::ball::{Ball, partition};
+use super::fit::{Reach, discard, keep_reaching};
+use super::part::{Division, Halves, Part, divide};
+use super::plane::{Plane, centers_of, cut, cut_space, face, longest_axis, weigh};
+use super::{Builder, MEDIAN_FROM};
 use crate::options::{Boxes, Fitting};
-use crate::plane::{Plane, centers_of, cut, cut_space, face, longest_axis, weigh};
 
 impl Builder {
     /// Cuts the node's box, gives each part the balls that reach it, and fits it to them.
@@ -66,7 +67,7 @@ impl Builder {
         }
     }
 
-    /// The plane to cut the node at; `None` where it had better be a leaf.
+    /// The plane to cut the node at; `None` where a leaf is cheaper.
     fn plane(&self, list: &mut [Ball], part: &Part) -> Option<Plane> {
         let options = &self.options;
         let cost = options.cost.of(list.len() as f32);

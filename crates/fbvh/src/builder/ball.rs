@@ -1,59 +1,59 @@
-//! The builder's working copy of a ball, and when two things overlap.
+//! The builder's working copy of a ball, and tests of overlap.
 
 use glam::{Vec3, Vec3A, Vec4};
 use metaball_core::Aabb;
 
-/// A ball as the builder moves it about: two registers.
+/// A ball in two vector registers: the builder copies it from list to list.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ball {
+pub(super) struct Ball {
     /// The centre, and after it the support radius.
     sphere: Vec4,
-    pub(crate) strength: f32,
+    pub(super) strength: f32,
     /// Index in the field.
-    pub(crate) index: u32,
+    pub(super) index: u32,
 }
 
 /// Squared distances are computed from differences that are right to a float, with at most eight
-/// roundings of 6e-8 after that: what overlaps in truth is within this factor of overlapping in f32.
+/// roundings of 6e-8 after that: what truly overlaps is within this factor of overlapping in f32.
 const SLACK: f32 = 1.0 + 1e-6;
 
 impl Ball {
-    pub(crate) fn new(center: Vec3, radius: f32, strength: f32, index: u32) -> Self {
+    pub(super) fn new(center: Vec3, radius: f32, strength: f32, index: u32) -> Self {
         Self { sphere: center.extend(radius), strength, index }
     }
 
     #[inline]
-    pub(crate) fn center(&self) -> Vec3A {
+    pub(super) fn center(&self) -> Vec3A {
         Vec3A::from_vec4(self.sphere)
     }
 
     #[inline]
-    pub(crate) fn radius(&self) -> f32 {
+    pub(super) fn radius(&self) -> f32 {
         self.sphere.w
     }
 
     /// Whether the support sphere meets the box. Never false where it does.
     #[inline]
-    pub(crate) fn reaches(&self, bounds: &Aabb) -> bool {
+    pub(super) fn reaches(&self, bounds: &Aabb) -> bool {
         sphere_meets(self.center(), self.radius(), bounds)
     }
 
     /// Whether the support spheres meet. Never false where they do.
     #[inline]
-    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+    pub(super) fn overlaps(&self, other: &Self) -> bool {
         self.is_within(self.radius() + other.radius(), other)
     }
 
     /// Whether the centres are at most so far apart. Never false where they are.
     #[inline]
-    pub(crate) fn is_within(&self, distance: f32, other: &Self) -> bool {
+    pub(super) fn is_within(&self, distance: f32, other: &Self) -> bool {
         self.center().distance_squared(other.center()) <= distance * distance * SLACK
     }
 }
 
 /// Whether the sphere meets the box. Never false where it does.
 #[inline]
-pub(crate) fn sphere_meets(center: Vec3A, radius: f32, bounds: &Aabb) -> bool {
+pub(super) fn sphere_meets(center: Vec3A, radius: f32, bounds: &Aabb) -> bool {
     let below = Vec3A::from(bounds.min) - center;
     let above = center - Vec3A::from(bounds.max);
     let outside = below.max(above).max(Vec3A::ZERO);
@@ -61,7 +61,7 @@ pub(crate) fn sphere_meets(center: Vec3A, radius: f32, bounds: &Aabb) -> bool {
 }
 
 /// The box around the support spheres.
-pub(crate) fn bounds_of(balls: &[Ball]) -> Aabb {
+pub(super) fn bounds_of(balls: &[Ball]) -> Aabb {
     let everything = Aabb { min: Vec3::NEG_INFINITY, max: Vec3::INFINITY };
     bounds_within(&everything, balls, Ball::radius)
 }
@@ -70,7 +70,7 @@ pub(crate) fn bounds_of(balls: &[Ball]) -> Aabb {
 /// a sphere is lost to rounding: the box around them is a float wider on every side. Ends with the ball
 /// that completes the whole of `bounds`: in dense places one of the first.
 #[inline]
-pub(crate) fn bounds_within(bounds: &Aabb, balls: &[Ball], radius: impl Fn(&Ball) -> f32) -> Aabb {
+pub(super) fn bounds_within(bounds: &Aabb, balls: &[Ball], radius: impl Fn(&Ball) -> f32) -> Aabb {
     let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
     let (mut min, mut max) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
     for ball in balls {
@@ -88,9 +88,9 @@ pub(crate) fn bounds_within(bounds: &Aabb, balls: &[Ball], radius: impl Fn(&Ball
 }
 
 /// Moves the balls that satisfy the test to the front, in their order, and returns how many they are.
-/// What is left behind them is of no use.
+/// What remains after them is meaningless.
 #[inline]
-pub(crate) fn retain(balls: &mut [Ball], test: impl Fn(&Ball) -> bool) -> usize {
+pub(super) fn retain(balls: &mut [Ball], test: impl Fn(&Ball) -> bool) -> usize {
     let mut kept = 0;
     for at in 0..balls.len() {
         let ball = balls[at];
@@ -101,7 +101,7 @@ pub(crate) fn retain(balls: &mut [Ball], test: impl Fn(&Ball) -> bool) -> usize 
 }
 
 /// Moves the balls that satisfy the test to the front, and returns how many they are.
-pub(crate) fn partition(balls: &mut [Ball], test: impl Fn(&Ball) -> bool) -> usize {
+pub(super) fn partition(balls: &mut [Ball], test: impl Fn(&Ball) -> bool) -> usize {
     let mut front = 0;
     for at in 0..balls.len() {
         if test(&balls[at]) {

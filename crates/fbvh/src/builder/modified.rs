@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
-use super::{Builder, Division, Halves, MEDIAN_FROM, Part};
-use crate::ball::{Ball, bounds_of, partition};
-use crate::plane::{centers_of, cut_centers, longest_axis};
+use super::ball::{Ball, bounds_of, partition};
+use super::part::{Division, Halves, Part};
+use super::plane::{centers_of, cut_centers, longest_axis};
+use super::{Builder, MEDIAN_FROM};
 
-/// Split balls of nodes with at most this many own balls are tested against each of them; above, the
-/// box around the own balls stands for them. What a leaf ends up with is the same either way, since
-/// a ball that meets one of the leaf's own balls meets every box above it.
+/// Split balls of nodes with at most this many own balls are tested against each of them; above,
+/// against the box around the own balls. The leaves' lists are the same either way, since a ball that
+/// meets one of the leaf's own balls meets every box above it.
 const EXACT_UP_TO: usize = 32;
 
 impl Builder {
@@ -37,7 +38,7 @@ impl Builder {
     }
 
     /// Moves the balls that belong to the left to the front, and returns the axis and how many they
-    /// are; `None` where the node had better be a leaf.
+    /// are; `None` where a leaf is cheaper.
     fn part_centers(&self, own: &mut [Ball], part: &Part) -> Option<(usize, usize)> {
         let options = &self.options;
         if part.depth >= self.max_depth || own.len() <= options.leaf_size as usize {
@@ -63,7 +64,7 @@ impl Builder {
         if left > 0 && left < own.len() {
             return Some((axis, left));
         }
-        // No plane, or one that rounding has moved past the last centre: halve by number.
+        // No plane, or one that rounding moved past the last centre: halve by number.
         let middle = own.len() / 2;
         own.select_nth_unstable_by(middle, |a, b| {
             a.center()[axis].total_cmp(&b.center()[axis]).then(a.index.cmp(&b.index))
@@ -72,7 +73,7 @@ impl Builder {
     }
 }
 
-/// The split balls of a leaf, tested against each own ball if that has not been done.
+/// The split balls of a leaf, tested against each own ball unless its node was small enough for that.
 fn exact_splits(own: &[Ball], pool: &mut Vec<Ball>, splits: &Range<usize>) -> Range<usize> {
     if own.len() <= EXACT_UP_TO {
         return splits.clone();

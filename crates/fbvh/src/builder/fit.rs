@@ -2,13 +2,13 @@
 
 use metaball_core::{Aabb, Kernel};
 
-use crate::ball::{Ball, bounds_within, retain, sphere_meets};
+use super::ball::{Ball, bounds_within, retain, sphere_meets};
 use crate::options::Boxes;
 
 /// The radius rᵢ = min(Rᵢ·`factor`, `limit`) around each ball of a node outside of all of which the
 /// field is below T.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Reach {
+pub(super) struct Reach {
     factor: f32,
     limit: f32,
 }
@@ -21,7 +21,7 @@ impl Reach {
     ///
     /// Were the field T at x, then Σ qᵢkᵢ(x) ≥ T, so some ball has kᵢ(x) ≥ T/Σq: x is within
     /// Rᵢ·k⁻¹(T/Σq) of it. The sum must run over all balls whose support meets the node's box.
-    pub(crate) fn of(boxes: Boxes, kernel: Kernel, threshold: f32, balls: &[Ball]) -> Option<Self> {
+    pub(super) fn of(boxes: Boxes, kernel: Kernel, threshold: f32, balls: &[Ball]) -> Option<Self> {
         if matches!(boxes, Boxes::Cut | Boxes::Support) {
             return (!balls.is_empty()).then_some(Self::SUPPORT);
         }
@@ -36,7 +36,7 @@ impl Reach {
     }
 
     /// [`Boxes::PerBall`] of balls whose strengths have this sum.
-    pub(crate) fn per_ball(kernel: Kernel, threshold: f32, strength: f64) -> Option<Self> {
+    pub(super) fn per_ball(kernel: Kernel, threshold: f32, strength: f64) -> Option<Self> {
         let share = f64::from(threshold) / strength;
         if share >= 1.0 {
             return None;
@@ -48,12 +48,12 @@ impl Reach {
 
     /// The radius around a ball.
     #[inline]
-    pub(crate) fn radius(self, ball: &Ball) -> f32 {
+    pub(super) fn radius(self, ball: &Ball) -> f32 {
         (ball.radius() * self.factor).min(self.limit)
     }
 
     /// The part of a box around the surface that the balls can make in it.
-    pub(crate) fn clip(self, balls: &[Ball], bounds: &Aabb) -> Aabb {
+    pub(super) fn clip(self, balls: &[Ball], bounds: &Aabb) -> Aabb {
         bounds_within(bounds, balls, |ball| self.radius(ball))
     }
 }
@@ -63,7 +63,7 @@ impl Reach {
 ///
 /// Were x in the box with F(x) ≥ T, then x is within rⱼ of some ball j. j is not a discarded ball i,
 /// whose rᵢ keeps clear of the box; so |x − pᵢ| ≥ |pᵢ − pⱼ| − rⱼ ≥ Rᵢ, where ball i adds nothing.
-pub(crate) fn discard(
+pub(super) fn discard(
     reach: Reach,
     bounds: &Aabb,
     balls: &mut [Ball],
@@ -88,6 +88,6 @@ pub(crate) fn discard(
 }
 
 /// Keeps those of a node's balls that reach its box.
-pub(crate) fn keep_reaching(balls: &mut [Ball], bounds: &Aabb) -> usize {
+pub(super) fn keep_reaching(balls: &mut [Ball], bounds: &Aabb) -> usize {
     retain(balls, |ball| ball.reaches(bounds))
 }

@@ -1,0 +1,31 @@
+//! Why a tree cannot be built.
+
+use metaball_core::SceneError;
+use thiserror::Error;
+
+use super::plane::MAX_BINS;
+
+/// Why [`Tree::build`](crate::Tree::build) makes no tree.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// A ball, the threshold or the number of balls is not legal in a field.
+    #[error(transparent)]
+    Field(#[from] SceneError),
+    /// [`Options::bins`](crate::Options::bins) is out of range.
+    #[error("bins: needed from 2 to {MAX_BINS}, found {found}")]
+    Bins {
+        /// The number given.
+        found: u32,
+    },
+    /// The balls overlap so much that indices of 32 bits cannot name all list entries or leaves.
+    #[error("{what} of the tree: needed at most {limit}, found {found}")]
+    TooMany {
+        /// `leaves` or `list entries`.
+        what: &'static str,
+        /// How many there would be.
+        found: usize,
+        /// How many there may be.
+        limit: usize,
+    },
+}
