@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use bench_scenes::Overrides;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use fbvh::{Options, TraceOptions, Tracer, Tree};
+use fbvh::{Options, Tracer, Tree};
 use metaball_core::View;
 
 const WIDTH: u32 = 640;
@@ -29,7 +29,7 @@ fn trace(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(rays.len() as u64));
         for (structure, options) in STRUCTURES {
             let tree = Tree::build(&bench.scene, &options).expect("legal options");
-            let tracer = Tracer::new(&tree, &bench.scene, TraceOptions::DEFAULT);
+            let tracer = Tracer::new(&tree, &bench.scene);
             group.bench_with_input(BenchmarkId::new(structure, name), &rays, |bencher, rays| {
                 bencher.iter(|| tracer.picture_hits(black_box(rays), WIDTH as usize));
             });

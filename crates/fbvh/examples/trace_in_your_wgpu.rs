@@ -1,9 +1,9 @@
-//! Metaballs in a program that has a wgpu device of its own, and shades what was found with a shader
-//! of its own: `cargo run --release --features gpu --example trace_in_your_wgpu -- picture.png`.
+//! Metaballs in a program that has a wgpu device of its own, and shades the hits with a shader of its
+//! own: `cargo run --release -p fbvh --features gpu --example trace_in_your_wgpu -- picture.png`.
 
 use std::{env, error::Error};
 
-use fbvh::{Options, TraceOptions, gpu::Renderer};
+use fbvh::{Options, gpu::Renderer};
 use glam::Vec3;
 use image::RgbaImage;
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
@@ -35,31 +35,31 @@ fn paint(@builtin(global_invocation_id) id: vec3<u32>) {
 fn main() -> Result<(), Box<dyn Error>> {
     let path = env::args().nth(1).ok_or("needed the path of a picture to write")?;
 
-    // What your program has already.
+    // Your program has these already.
     let instance = wgpu::Instance::default();
     let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
     let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
 
-    // Handles are shared, not moved: the device stays yours.
+    // Handles are shared, not moved: the device remains yours.
     let gpu = Gpu::of_device(&adapter, device.clone(), queue.clone());
 
-    // Once a scene: a grid of balls whose radii swell from corner to corner.
+    // Once per scene: a grid of balls whose radii swell from corner to corner.
     let balls = (0..512).map(|index| {
         let center = Vec3::new((index % 8) as f32, (index / 8 % 8) as f32, (index / 64) as f32);
         Metaball::new(center, 0.8 + 0.05 * center.element_sum())
     });
     let scene = Scene::new(balls, Kernel::QUARTIC, 0.4)?;
-    let mut metaballs = Renderer::new("fbvh", Options::fitted(), TraceOptions::DEFAULT, false);
+    let mut metaballs = Renderer::new("metaballs", Options::certified(), false);
     metaballs.build(&gpu, &scene)?;
 
-    // Once an image size, and once a view.
+    // Once per image size, and once per view.
     let targets = Targets::new(&gpu, WIDTH, HEIGHT, false, false)?;
     let camera = Camera::framing(&scene.bounds(), Vec3::new(-0.7, -0.4, -1.0));
     let view = View::new(camera, WIDTH, HEIGHT)?;
     let report = render(&gpu, &mut metaballs, &targets, &view)?;
     eprintln!("{} in {:.1?}", gpu.report().name, report.wall);
 
-    // Your own pass over the hits, which never left the device.
+    // Your own pass over the hits, which have not left the GPU.
     let pixels = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("pixels"),
         size: u64::from(WIDTH * HEIGHT * 4),

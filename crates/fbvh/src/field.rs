@@ -1,10 +1,11 @@
-//! What the crate asks of someone else's particles.
+//! The trait by which particles of any type become a field.
 
 use metaball_core::{Kernel, Scene, Support};
 
 /// Balls with a kernel and a threshold, wherever they are kept: all that building and tracing need.
 ///
-/// [`Scene`] implements it. Another particle type implements it by reading its own memory:
+/// [`Scene`] implements it. Particles of another type need no copy; they implement it by reading their
+/// own memory:
 ///
 /// ```
 /// use fbvh::{Field, Options, Tree};
@@ -23,7 +24,7 @@ use metaball_core::{Kernel, Scene, Support};
 /// }
 ///
 /// let fluid = Fluid { positions: vec![[0.0; 3], [0.7, 0.0, 0.0]], radius: 1.0 };
-/// assert!(!Tree::build(&fluid, &Options::fitted())?.is_empty());
+/// assert!(!Tree::build(&fluid, &Options::certified())?.is_empty());
 /// # Ok::<(), fbvh::BuildError>(())
 /// ```
 pub trait Field: Sync {
@@ -33,16 +34,16 @@ pub trait Field: Sync {
     /// Centre and support radius of a ball, `ball < ball_count()`, world space, scene units.
     fn support(&self, ball: usize) -> Support;
 
-    /// Strength q > 0 of a ball; 1 unless told otherwise.
+    /// Strength q > 0 of a ball, in units of the field; 1 by default.
     fn strength(&self, ball: usize) -> f32 {
         let _ = ball;
         1.0
     }
 
-    /// The falloff of all balls.
+    /// The kernel of all balls.
     fn kernel(&self) -> Kernel;
 
-    /// T > 0: the field on the surface.
+    /// Threshold T > 0: the field's value on the surface.
     fn threshold(&self) -> f32;
 }
 

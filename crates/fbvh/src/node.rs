@@ -1,4 +1,5 @@
-//! What a tree is made of, laid out for the graphics card: the twins of `fbvh/node.wgsl`.
+//! Nodes and leaves as they are uploaded to the GPU: the twins of the structs in
+//! `shaders/wgsl/fbvh/structure.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -10,14 +11,14 @@ pub const LEAF: u32 = 1 << 31;
 /// The reference to nothing: the root of a tree without leaves.
 pub const EMPTY: u32 = u32::MAX;
 
-/// The most interior nodes on a way from the root to a leaf. A traversal keeps at most one sibling
-/// for each of them, so a stack of this many entries cannot overflow. The builder keeps to it: see
+/// The most interior nodes on a path from the root to a leaf. A traversal keeps at most one sibling
+/// for each of them, so a stack of this many entries cannot overflow. The builder guarantees it: see
 /// [`Options::max_depth`](crate::Options::max_depth).
 pub const MAX_DEPTH: usize = 64;
 
-/// An interior node: the boxes of both children, so that a visitor reads one record to choose
-/// between them. 64 bytes. Interior nodes lie in preorder, leaves are numbered in the same order
-/// from left to right.
+/// An interior node, 64 bytes: the boxes of both children, so that a traversal reads one record to
+/// choose between them. Interior nodes lie in preorder, leaves are numbered in the same order from left
+/// to right.
 ///
 /// A child reference is the index of an interior node, or [`LEAF`] plus the number of a leaf.
 #[repr(C)]
@@ -38,7 +39,7 @@ pub struct Node {
     /// Greatest corner of the right child's box.
     pub right_max: [f32; 3],
     /// Number of the leftmost leaf below the right child: leaves with smaller numbers are below the
-    /// left child. A traversal that was stopped at a leaf finds its way back by it.
+    /// left child. A traversal that was interrupted at a leaf descends to it again by this.
     pub first_right_leaf: u32,
 }
 
@@ -54,7 +55,7 @@ impl Node {
     }
 }
 
-/// A leaf: its box and where its list of balls starts. 32 bytes.
+/// A leaf, 32 bytes: its box and where its list of balls starts.
 ///
 /// The list of leaf i is `lists[leaves[i].first .. leaves[i + 1].first]`; a sentinel closes the
 /// array of leaves. The first `own` entries are the leaf's own balls, the rest split balls.

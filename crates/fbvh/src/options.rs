@@ -4,28 +4,35 @@ use glam::Vec3A;
 
 use crate::MAX_DEPTH;
 
-/// The two structures of the paper, and one beside them.
+/// The two structures of the paper, and the certified tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// Section 4: boxes around own balls, which overlap; a leaf projects its own balls only, and a
-    /// ray goes on until no nearer leaf is left.
+    /// ray continues until no nearer leaf is left.
     ModifiedBvh,
     /// Section 5: boxes that do not overlap; a leaf projects all its balls, and the first hit ends
     /// the ray.
     Fitted,
-    /// Not in the paper: boxes that do not overlap, each with the field known to cross T inside or
-    /// to be above T throughout; a leaf is searched by exact ranges, and no answer is wrong.
+    /// Not in the paper: boxes that do not overlap, in each of which the field may cross T or is above
+    /// T throughout; a leaf is searched by bounds, and every answer is right or undecided.
     Certified,
 }
 
-/// The structure to build, with what is particular to it.
+impl Kind {
+    /// Whether the paper has it, whose leaves are searched by its section 3.
+    pub(crate) const fn is_published(self) -> bool {
+        matches!(self, Self::ModifiedBvh | Self::Fitted)
+    }
+}
+
+/// The structure to build, with the options that it alone has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Structure {
     /// Section 4, algorithm 1.
     ModifiedBvh,
     /// Section 5, algorithm 2.
     Fitted(Fitting),
-    /// Not in the paper: boxes classified by exact ranges of the field.
+    /// Not in the paper: boxes classified by exact ranges of the field, as empty, solid or a leaf.
     Certified(Classes),
 }
 
@@ -35,9 +42,9 @@ pub struct Classes {
     /// Boxes reached by at most this many balls are not divided further; nor are those of at most twice
     /// as many where a cut would leave most of them on both sides.
     pub leaf_size: u32,
-    /// Nor are boxes whose longest side is below this share of their balls' radius, the mean
-    /// weighted by what each adds. Where n balls reach a box, more than three times as many as make a leaf,
-    /// that share is divided by the cube root of n / `leaf_size`.
+    /// Nor are boxes whose longest side is below this part of their balls' radius, the mean weighted by
+    /// the most that each ball adds in the box. Where n balls reach a box, n more than three times
+    /// `leaf_size`, that part is divided by the cube root of n / `leaf_size`.
     pub smallest_side: f32,
 }
 
@@ -67,7 +74,7 @@ pub enum Boxes {
     PerBall,
 }
 
-/// What testing a leaf of n balls is taken to cost, in units of one ball's share of one evaluation.
+/// The estimated cost of searching a leaf of n balls, in units of one ball's share of one evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cost {
     /// n: the standard heuristic.
@@ -101,15 +108,18 @@ impl Cost {
 
 /// How to build a tree. Start from [`Options::certified`], [`Options::fitted`] or
 /// [`Options::modified_bvh`].
+///
+/// Of these, a certified tree has only [`bins`](Options::bins) and [`max_depth`](Options::max_depth):
+/// its cost is the number of balls, and its leaves are as [`Classes`] says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Which structure.
+    /// The structure.
     pub structure: Structure,
-    /// What the surface area heuristic takes a leaf to cost. n counts own and split balls in the
-    /// Fitted BVH, own balls in the modified BVH.
+    /// The cost of a leaf in the surface area heuristic. n counts own and split balls in the Fitted BVH,
+    /// own balls in the modified BVH.
     pub cost: Cost,
-    /// What a step of the traversal costs, in the unit of [`Options::cost`]. A node is split only
-    /// where that is cheaper than leaving it a leaf.
+    /// The cost of a step of the traversal, in the unit of [`Options::cost`]. A node is split only
+    /// where that is cheaper than a leaf.
     pub traversal_cost: f32,
     /// Bins a node is divided into along each axis to find the best plane (Wald 2007). From 2 to 16.
     pub bins: u32,
@@ -118,8 +128,8 @@ pub struct Options {
     pub halve_above: u32,
     /// Nodes of at most this many balls are not split further.
     pub leaf_size: u32,
-    /// Levels of interior nodes; [`MAX_DEPTH`] where more is asked for. From level 32 on planes go
-    /// through the middle ball; what is left at the last level is a leaf, however large.
+    /// Levels of interior nodes, at most [`MAX_DEPTH`]. From level 32 on planes go through the middle
+    /// ball; what is left at the last level is a leaf, however large.
     pub max_depth: usize,
 }
 
@@ -137,11 +147,11 @@ impl Options {
         }
     }
 
-    /// The Fitted BVH with everything the paper's section 5 has: cost n², fitted boxes, tighter
+    /// The Fitted BVH with everything that the paper's section 5 has: cost n², fitted boxes, tighter
     /// radii per node, discarding in nodes of up to a dozen balls; 16 bins.
     ///
-    /// A traversal step counts 24: on scattered and on dense balls, rays on the CPU take the same
-    /// time for 4 to 24 within a tenth, and a tree for 4 takes three times as long to build.
+    /// A traversal step costs 24: on scattered and on dense balls, rays on the CPU take the same time
+    /// for 4 to 24 within a tenth, and a tree for 4 takes three times as long to build.
     pub const fn fitted() -> Self {
         Self {
             structure: Structure::Fitted(Fitting { boxes: Boxes::PerNode, discard_up_to: 12 }),
@@ -151,7 +161,8 @@ impl Options {
         }
     }
 
-    /// The certified tree.
+    /// The certified tree, for which no ray's answer is wrong: leaves of up to 16 balls, or sides of 0.7
+    /// radii.
     pub const fn certified() -> Self {
         Self {
             structure: Structure::Certified(Classes { leaf_size: 16, smallest_side: 0.7 }),
@@ -159,7 +170,7 @@ impl Options {
         }
     }
 
-    /// Which structure these options build.
+    /// The kind of tree that these options build.
     pub const fn kind(&self) -> Kind {
         match self.structure {
             Structure::ModifiedBvh => Kind::ModifiedBvh,

@@ -1,9 +1,9 @@
-//! Many rays at once against single rays and against the oracle: the certified tree asks eight rays
-//! together, and no answer may show it.
+//! Many rays at once against single rays and against the oracle: through the certified tree rays go in
+//! packets of eight, and no answer may show it.
 
 mod scenes;
 
-use fbvh::{Classes, Options, Structure, TraceOptions, Tracer, Tree};
+use fbvh::{Classes, Options, Structure, Tracer, Tree};
 use glam::{DVec3, Vec3};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict};
@@ -20,7 +20,7 @@ fn trees(scene: &Scene) -> [Tree; 2] {
 /// What is wrong with a hit where a ray alone has another.
 ///
 /// A normal may be of the point that f32 makes of t, off by a few 1e-7 of it: as far as normals differ
-/// around there, so may these. Where the field only just comes to T, at a ball's very centre perhaps, they
+/// around there, so may these. Where the field only just reaches T, at a ball's very centre perhaps, they
 /// may be any.
 fn difference(oracle: &Oracle<'_>, ray: &Ray, hit: &Hit, single: &Hit) -> Option<String> {
     let truth = oracle.first_hit(ray);
@@ -28,17 +28,17 @@ fn difference(oracle: &Oracle<'_>, ray: &Ray, hit: &Hit, single: &Hit) -> Option
     let reach = 5e-7 * f64::from(single.t);
     let point = ray.origin.as_dvec3() + f64::from(single.t) * ray.direction.as_dvec3();
     let around = DVec3::AXES.map(|axis| {
-        let [before, behind] = [-reach, reach].map(|way| oracle.normal(point + way * axis));
+        let [before, behind] = [-reach, reach].map(|offset| oracle.normal(point + offset * axis));
         before.distance(behind) as f32
     });
-    let is_told = single.is_hit() && !truth.is_ambiguous();
+    let is_clear = single.is_hit() && !truth.is_ambiguous();
     let apart = hit.normal.distance(single.normal);
-    let has_normal = !is_told || apart <= 1e-3 + around.iter().sum::<f32>();
+    let has_normal = !is_clear || apart <= 1e-3 + around.iter().sum::<f32>();
     let is_same = hit.verdict == single.verdict && is_near && has_normal;
-    (!is_same).then(|| format!("{ray:?}: {hit:?} in company, alone {single:?}"))
+    (!is_same).then(|| format!("{ray:?}: {hit:?} in a packet, alone {single:?}"))
 }
 
-/// What is wrong with answers to rays in company.
+/// What is wrong with the answers to rays in packets.
 fn complaint(
     tracer: &Tracer<'_, Scene>,
     oracle: &Oracle<'_>,
@@ -61,7 +61,7 @@ fn complaint(
     (tracer.any_hits(rays) != anywhere).then(|| format!("any hits of {rays:?}"))
 }
 
-/// What is wrong with a hit, if the truth about its ray is clear and f64 is promised to tell.
+/// What is wrong with a hit, if the truth about its ray is clear and f64 is promised to decide.
 fn falsehood(scene: &Scene, oracle: &Oracle<'_>, ray: &Ray, hit: &Hit) -> Option<String> {
     let truth = oracle.first_hit(ray);
     let is_far = scene.balls().any(|ball| ball.center.distance(ray.origin) >= 1e5 * ball.radius);
@@ -75,8 +75,8 @@ fn falsehood(scene: &Scene, oracle: &Oracle<'_>, ray: &Ray, hit: &Hit) -> Option
 
 /// A ray from a point to about another, as f32 has it.
 fn towards(start: Vec3, end: Vec3) -> Ray {
-    let way = DVec3::from(end) - DVec3::from(start);
-    Ray::new(start, way.normalize_or(DVec3::X).as_vec3())
+    let offset = DVec3::from(end) - DVec3::from(start);
+    Ray::new(start, offset.normalize_or(DVec3::X).as_vec3())
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn differences_are_complained_of() {
     let balls = [0.0, 0.8].map(|x| Metaball::new(Vec3::X * x, 1.0));
     let scene = Scene::new(balls, Kernel::QUARTIC, 0.25).expect("legal");
     let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
-    let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
+    let tracer = Tracer::new(&tree, &scene);
     let ray = Ray::new(Vec3::new(0.1, 0.2, -4.0), Vec3::Z);
     let hit = tracer.first_hit(&ray);
     let oracle = Oracle::new(&scene);
@@ -106,7 +106,7 @@ fn any_number_of_rays_will_do() {
     let scene = Scene::new(balls, Kernel::QUARTIC, 0.3).expect("legal");
     let oracle = Oracle::new(&scene);
     for tree in trees(&scene) {
-        let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
+        let tracer = Tracer::new(&tree, &scene);
         for (width, height) in [(0, 0), (1, 1), (7, 1), (8, 1), (9, 3), (5, 5), (3, 11), (33, 9)] {
             let ray = |at: usize| {
                 let (x, y) = ((at % width) as f32, (at / width) as f32);
@@ -129,7 +129,7 @@ fn rays_along_faces_hit_together() {
     let scene = Scene::new(grid, Kernel::QUARTIC, 0.5).expect("legal");
     let oracle = Oracle::new(&scene);
     for tree in trees(&scene) {
-        let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
+        let tracer = Tracer::new(&tree, &scene);
         for direction in [Vec3::Z, Vec3::new(-0.0, -0.0, 1.0)] {
             let start = |at: usize| Vec3::new((at % 5) as f32, (at / 5) as f32, -3.0);
             let rays: Vec<Ray> = (0..25).map(|at| Ray::new(start(at), direction)).collect();
@@ -139,9 +139,9 @@ fn rays_along_faces_hit_together() {
     }
 }
 
-/// Rays that touch the surface, or almost, side by side; of a ball alone and of many in one place.
+/// Rays that touch the surface, or almost, side by side; of a ball alone and of many that coincide.
 #[test]
-fn grazing_rays_are_told_apart() {
+fn grazing_rays_are_distinguished() {
     let mut clear = 0;
     for (kernel, copies) in Kernel::all().flat_map(|kernel| [(kernel, 1), (kernel, 50)]) {
         let ball = Metaball { center: Vec3::new(1.0, -2.0, 0.5), radius: 1.5, strength: 1.25 };
@@ -153,12 +153,12 @@ fn grazing_rays_are_told_apart() {
             .map(|step| {
                 let share = 10f64.powf(-0.2 * f64::from(step / 2));
                 let off = core * (1.0 + if step % 2 == 0 { share } else { -share });
-                let beside = ball.center + (off as f32) * Vec3::Y;
-                Ray::new(beside - 7.0 * Vec3::Z, Vec3::Z)
+                let target = ball.center + (off as f32) * Vec3::Y;
+                Ray::new(target - 7.0 * Vec3::Z, Vec3::Z)
             })
             .collect();
         for tree in trees(&scene) {
-            let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
+            let tracer = Tracer::new(&tree, &scene);
             for (ray, hit) in rays.iter().zip(tracer.first_hits(&rays)) {
                 assert_eq!(falsehood(&scene, &oracle, ray, &hit), None, "{kernel} {copies}");
                 clear += usize::from(!oracle.first_hit(ray).is_ambiguous());
@@ -179,7 +179,7 @@ proptest! {
     /// Neighbours about each of some targets, with a stray among them, rays that end early, and rays
     /// that start inside; at any scale and distance.
     #[test]
-    fn company_changes_no_answer(
+    fn packets_change_no_answer(
         scene in scenes::any_scene(40),
         scale in prop::sample::select(vec![1e-4f32, 1.0, 1e6]),
         eye in [-1.0f32..1.0, -1.0f32..1.0, -1.0f32..1.0],
@@ -201,16 +201,16 @@ proptest! {
                 let (target, neighbour) = (at / 8, at % 8);
                 let center = balls.get(target).map_or(Vec3::ZERO, |ball| ball.center);
                 let goal = if target % 2 == 0 { center } else { scale * Vec3::from(targets[target]) };
-                let beside = Vec3::new((neighbour % 4) as f32, (neighbour / 4) as f32, 0.3);
+                let offset = Vec3::new((neighbour % 4) as f32, (neighbour / 4) as f32, 0.3);
                 let stray = strays.contains(&at);
-                let goal = if stray { -goal } else { goal + apart * scale * beside };
+                let goal = if stray { -goal } else { goal + apart * scale * offset };
                 let start = if target == 7 { center } else { eye };
                 Ray { t_max: t_max * scale, ..towards(start, goal) }
             })
             .map(|ray| Ray { t_max: ray.t_max.min(NO_LIMIT), ..ray })
             .collect();
         for tree in trees(&scene) {
-            let tracer = Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
+            let tracer = Tracer::new(&tree, &scene);
             let found = complaint(&tracer, &oracle, &rays, 8);
             prop_assert!(found.is_none(), "{found:?}");
             for (ray, hit) in rays.iter().zip(tracer.first_hits(&rays)) {

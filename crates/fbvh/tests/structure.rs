@@ -1,4 +1,4 @@
-//! Trees of random scenes prove themselves, and do not depend on the number of threads.
+//! Trees of random scenes are valid, and do not depend on the number of threads.
 
 mod scenes;
 
@@ -101,7 +101,7 @@ fn large_trees_are_well_formed() {
 }
 
 #[test]
-fn trees_of_another_scene_are_found_out() {
+fn trees_of_another_scene_are_invalid() {
     let row = |distance: f32| {
         let balls = (0..50).map(|at| Metaball::new(Vec3::X * distance * at as f32, 1.0));
         Scene::new(balls, Kernel::Wyvill, 0.2).expect("legal balls")
@@ -129,16 +129,16 @@ fn nothing_to_see_is_an_empty_tree() {
 
 #[test]
 fn coincident_balls_are_one_leaf() {
-    let pile = std::iter::repeat_n(Metaball::new(Vec3::ONE, 1.0), 5000);
-    let pile = Scene::new(pile, Kernel::QUARTIC, 0.5).expect("legal");
+    let balls = std::iter::repeat_n(Metaball::new(Vec3::ONE, 1.0), 5000);
+    let scene = Scene::new(balls, Kernel::QUARTIC, 0.5).expect("legal");
     for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
-        let stats = Tree::build(&pile, &options).expect("legal options").stats();
+        let stats = Tree::build(&scene, &options).expect("legal options").stats();
         assert_eq!((stats.leaves, stats.list_entries), (1, 5000), "{:?}", options.kind());
     }
 }
 
 #[test]
-fn balls_that_all_overlap_are_no_pile() {
+fn balls_that_all_overlap_are_not_coincident() {
     let mut state = 7u32;
     let mut random = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -4,15 +4,16 @@ mod scenes;
 
 use approx::assert_relative_eq;
 use fbvh::{
-    Boxes, Classes, Fitting, Kind, Options, Reading, Structure, TraceOptions, Tracer, Tree, Work,
+    Boxes, Classes, Fitting, Kind, Options, Reading, SecantSearch, Structure, TraceError, Tracer,
+    Tree, Work,
 };
 use glam::{DVec3, Vec3};
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Camera, Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict};
 use proptest::prelude::*;
 
-const CLIPPED: TraceOptions = TraceOptions::DEFAULT;
-const LITERAL: TraceOptions = TraceOptions { reading: Reading::Literal, ..CLIPPED };
+const CLIPPED: SecantSearch = SecantSearch::DEFAULT;
+const LITERAL: SecantSearch = SecantSearch { reading: Reading::Literal, ..CLIPPED };
 
 /// The published structures, the fitted one with nothing of section 5.3 and with all, and the
 /// certified one as it comes and cut as small as it goes.
@@ -36,9 +37,18 @@ fn structures() -> [Options; 6] {
     ]
 }
 
-fn trace(scene: &Scene, options: &Options, reading: TraceOptions, ray: &Ray) -> Hit {
+/// A tracer whose leaves are searched so where the tree is a published one.
+fn tracer<'a>(tree: &'a Tree, scene: &'a Scene, search: SecantSearch) -> Tracer<'a, Scene> {
+    let tracer = Tracer::new(tree, scene);
+    match tree.kind() {
+        Kind::Certified => tracer,
+        _ => tracer.with_search(search).expect("a published tree"),
+    }
+}
+
+fn trace(scene: &Scene, options: &Options, search: SecantSearch, ray: &Ray) -> Hit {
     let tree = Tree::build(scene, options).expect("legal options");
-    Tracer::new(&tree, scene, reading).first_hit(ray)
+    tracer(&tree, scene, search).first_hit(ray)
 }
 
 #[test]
@@ -48,9 +58,9 @@ fn one_ball_is_a_sphere() {
         let scene = Scene::new([ball], kernel, 0.4).expect("legal");
         let core = kernel.core_radius(&ball, 0.4).expect("0.4 is below 1.25");
         for options in structures() {
-            for reading in [CLIPPED, LITERAL] {
+            for search in [CLIPPED, LITERAL] {
                 let ray = Ray::new(ball.center - 5.0 * Vec3::Z, Vec3::Z);
-                let hit = trace(&scene, &options, reading, &ray);
+                let hit = trace(&scene, &options, search, &ray);
                 assert_eq!(hit.verdict, Verdict::Hit);
                 // 1e-5 of T over the field's slope, which for α = 8, the flattest at the core
                 // radius, is 0.9 T a unit; and as much again for f32.
@@ -58,10 +68,10 @@ fn one_ball_is_a_sphere() {
                 assert_relative_eq!(hit.normal, -Vec3::Z, epsilon = 1e-4);
 
                 let inside = Ray::new(ball.center, Vec3::Z);
-                let hit = trace(&scene, &options, reading, &inside);
+                let hit = trace(&scene, &options, search, &inside);
                 assert_eq!((hit.verdict, hit.t), (Verdict::Inside, 0.0));
                 let away = Ray::new(ray.origin, -Vec3::Z);
-                assert_eq!(trace(&scene, &options, reading, &away), Hit::MISS);
+                assert_eq!(trace(&scene, &options, search, &away), Hit::MISS);
             }
         }
     }
@@ -72,10 +82,10 @@ fn an_opaque_thing_ends_the_ray() {
     let scene = Scene::new([Metaball::new(Vec3::ZERO, 1.0)], Kernel::QUARTIC, 0.25).expect("legal");
     // The quartic is 0.25 at ρ² = 0.5: t = 3 − 0.7071.
     for options in structures() {
-        for reading in [CLIPPED, LITERAL] {
+        for search in [CLIPPED, LITERAL] {
             let verdict = |t_max| {
                 let ray = Ray { t_max, ..Ray::new(-3.0 * Vec3::X, Vec3::X) };
-                trace(&scene, &options, reading, &ray).verdict
+                trace(&scene, &options, search, &ray).verdict
             };
             assert_eq!(verdict(2.29), Verdict::Miss);
             // Ends inside the solid, before the centre's projection.
@@ -113,7 +123,7 @@ fn batches_are_single_rays_and_counting_changes_nothing() {
     let rays = rays_at(&scene, 40);
     for options in structures() {
         let tree = Tree::build(&scene, &options).expect("legal options");
-        let tracer = Tracer::new(&tree, &scene, CLIPPED);
+        let tracer = Tracer::new(&tree, &scene);
         let mut work = Work::default();
         let one_by_one: Vec<Hit> =
             rays.iter().map(|ray| tracer.first_hit_counting(ray, &mut work)).collect();
@@ -144,9 +154,9 @@ fn rays_at(scene: &Scene, pixels: u32) -> Vec<Ray> {
         .collect()
 }
 
-/// Whether the paper's assumption holds for this ray: a centre projects into the first stretch
+/// Whether the paper's assumption holds for this ray: a centre projects into the first interval
 /// inside, well away from its ends, of a ball whose support the projection is in. (A ball that the
-/// ray does not meet is in no list that the ray comes across.) The modified BVH needs more: its
+/// ray does not meet is in no list that the ray reads.) The modified BVH needs more: its
 /// lists are complete only in the supports of own balls, so that ball's must reach back to the hit.
 /// The certified tree assumes nothing.
 fn assumption_holds(scene: &Scene, ray: &Ray, truth: &Truth, kind: Kind) -> bool {
@@ -270,15 +280,15 @@ proptest! {
         let eye = Vec3::from(eye);
         for options in structures() {
             let tree = Tree::build(&scene, &options).expect("legal options");
-            for reading in [CLIPPED, LITERAL] {
-                let tracer = Tracer::new(&tree, &scene, reading);
+            for search in [CLIPPED, LITERAL] {
+                let tracer = tracer(&tree, &scene, search);
                 for &target in &targets {
                     let direction = (DVec3::from(Vec3::from(target)) - DVec3::from(eye)).normalize_or(DVec3::X);
                     let ray = Ray { t_max, ..Ray::new(eye, direction.as_vec3()) };
                     let hit = tracer.first_hit(&ray);
-                    let variant = (options.kind(), reading.reading);
+                    let variant = (options.kind(), search.reading);
                     if let Some(complaint) = complaint(&scene, &oracle, &ray, &hit, variant) {
-                        prop_assert!(false, "{options:?} {reading:?} {ray:?}: {complaint}");
+                        prop_assert!(false, "{options:?} {search:?} {ray:?}: {complaint}");
                     }
                 }
             }
@@ -288,8 +298,8 @@ proptest! {
 
 /// What is wrong with the answers about a ray of a certified tree, if the truth is clear.
 ///
-/// A root is finished in f64, so t is right to its own rounding to f32, 6e-8 of itself; 1e-6 leaves
-/// room for rays that graze, whose crossing is known to less.
+/// A root is refined in f64, so t is right to its own rounding to f32, 6e-8 of itself; 1e-6 allows for
+/// rays that graze, whose crossing is known to less.
 fn false_answer(
     tracer: &Tracer<'_, Scene>,
     (scene, oracle): (&Scene, &Oracle<'_>),
@@ -302,8 +312,8 @@ fn false_answer(
     if truth.is_ambiguous() {
         return None;
     }
-    // What is promised is 1e4 radii. Beyond, f64 may not tell, and then must say so; as it may not where
-    // Perlin's kernel, 1 − 10ρ³ at its centre, alone touches T there with neither slope nor curvature.
+    // Certainty is promised to 1e4 radii. Beyond, f64 may not decide, and then must say so; as it may not
+    // where Perlin's kernel, 1 − 10ρ³ at its centre, alone touches T there with neither slope nor curvature.
     let radii = |ball: Metaball| ball.center.distance(ray.origin) / ball.radius;
     let is_flat =
         |ball: Metaball| scene.kernel() == Kernel::Perlin && ball.strength == scene.threshold();
@@ -319,10 +329,14 @@ fn false_answer(
     if hit.is_hit() && !near(f64::from(hit.t), truth.t) {
         return Some(format!("{hit:?}: {truth:?}"));
     }
-    if truth.verdict != Verdict::Inside || truth.exit >= f64::from(ray.t_max) {
+    if truth.verdict != Verdict::Inside {
+        let is_at_start = (exit.verdict, exit.t) == (Verdict::Inside, 0.0);
+        return (!is_at_start).then(|| format!("{exit:?}: {truth:?}"));
+    }
+    if truth.exit >= f64::from(ray.t_max) {
         return (exit != Hit::MISS).then(|| format!("{exit:?}: {truth:?}"));
     }
-    // The margin says nothing of a field that comes down to T on the way, and goes up again.
+    // The margin says nothing of a field that falls to T before, and rises again.
     let field_at = |t: f64| oracle.field(ray.origin.as_dvec3() + t * ray.direction.as_dvec3());
     let first = f64::from(exit.t).min(truth.exit);
     let share = (field_at(first) / f64::from(scene.threshold()) - 1.0).abs();
@@ -338,17 +352,53 @@ fn false_answers_are_complained_of() {
     };
     let (right, wrong) = (scene(1.0), scene(1.01));
     let tree = Tree::build(&right, &Options::certified()).expect("legal options");
-    let tracer = Tracer::new(&tree, &right, CLIPPED);
+    let tracer = Tracer::new(&tree, &right);
     for start in [Vec3::new(0.1, 0.2, -4.0), Vec3::ZERO] {
         let ray = Ray::new(start, Vec3::Z);
         assert_eq!(false_answer(&tracer, (&right, &Oracle::new(&right)), &ray), None);
         assert!(false_answer(&tracer, (&wrong, &Oracle::new(&wrong)), &ray).is_some());
     }
     let published = Tree::build(&right, &Options::fitted()).expect("legal options");
-    let tracer = Tracer::new(&published, &right, CLIPPED);
+    let tracer = Tracer::new(&published, &right);
     let ray = Ray::new(Vec3::new(0.1, 0.2, -4.0), Vec3::Z);
-    assert_eq!((tracer.any_hit(&ray), tracer.first_exit(&ray)), (Verdict::Hit, None));
+    assert_eq!(tracer.any_hit(&ray), Verdict::Hit);
     assert_eq!(tracer.any_hit(&Ray { t_max: 2.0, ..ray }), Verdict::Miss);
+}
+
+#[test]
+fn what_a_tree_does_not_have_is_an_error() {
+    let scene = Scene::new([Metaball::new(Vec3::ZERO, 1.0)], Kernel::QUARTIC, 0.25).expect("legal");
+    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    for options in structures() {
+        let tree = Tree::build(&scene, &options).expect("legal options");
+        let tracer = Tracer::new(&tree, &scene);
+        let (exit, exits) = (tracer.first_exit(&ray), tracer.first_exits(&[ray]));
+        let with_search = tracer.with_search(CLIPPED);
+        let found = tree.kind();
+        if found == Kind::Certified {
+            assert_eq!(exits, exit.map(|hit| vec![hit]));
+            assert_eq!(with_search.err(), Some(TraceError::SecantOfCertified { found }));
+        } else {
+            assert_eq!(exit, Err(TraceError::ExitOfPublished { found }));
+            assert_eq!(exits, Err(TraceError::ExitOfPublished { found }));
+            assert!(with_search.is_ok());
+        }
+    }
+}
+
+/// As the shaders have it: a ray that starts outside is at its exit, one that ends inside has none.
+#[test]
+fn exits_of_rays_that_start_outside_are_at_their_start() {
+    let scene = Scene::new([Metaball::new(Vec3::ZERO, 1.0)], Kernel::QUARTIC, 0.25).expect("legal");
+    let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
+    let tracer = Tracer::new(&tree, &scene);
+    // The quartic is 0.25 at r = 0.7071: beside every leaf, and in the corner of one.
+    for start in [Vec3::X, Vec3::splat(0.6)] {
+        let exit = tracer.first_exit(&Ray::new(start, Vec3::NEG_X)).expect("a certified tree");
+        assert_eq!((exit.verdict, exit.t), (Verdict::Inside, 0.0), "{start}");
+    }
+    let ends = Ray { t_max: 0.5, ..Ray::new(Vec3::ZERO, Vec3::X) };
+    assert_eq!(tracer.first_exit(&ends), Ok(Hit::MISS));
 }
 
 proptest! {
@@ -379,7 +429,7 @@ proptest! {
         let scene = Scene::new(balls.clone(), scene.kernel(), scene.threshold()).expect("legal");
         let oracle = Oracle::new(&scene);
         let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
-        let tracer = Tracer::new(&tree, &scene, CLIPPED);
+        let tracer = Tracer::new(&tree, &scene);
         let far = scale * distance * Vec3::from(eye);
         for (at, &target) in targets.iter().enumerate() {
             let target = scale * Vec3::from(target);

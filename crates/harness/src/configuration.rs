@@ -77,7 +77,7 @@ pub fn label(method: &str, options: &BTreeMap<String, String>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fbvh::TraceOptions;
+    use fbvh::SecantSearch;
 
     use crate::methods::methods;
 
@@ -85,8 +85,8 @@ mod tests {
     fn settings_say_what_they_set() {
         let method = &methods()[1];
         assert_eq!(Configuration::preset(method).to_string(), "fbvh");
-        let trace = TraceOptions { tolerance: 1e-3, ..TraceOptions::DEFAULT };
-        let technique = Technique::Tree(fbvh::Options::fitted(), trace);
+        let search = SecantSearch { tolerance: 1e-3, ..SecantSearch::DEFAULT };
+        let technique = Technique::Tree(fbvh::Options::fitted(), Some(search));
         let set = Configuration::with(method, "tolerance", "1e-3", technique);
         assert_eq!(set.to_string(), "fbvh, tolerance 1e-3");
         assert_eq!(set.renderer(false).name(), "fbvh");

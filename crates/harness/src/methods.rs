@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use fbvh::{Options, TraceOptions};
+use fbvh::{Options, SecantSearch};
 use illes_fraglist::{Gather, Piece};
 use metaball_core::gpu::IsoRenderer;
 use thiserror::Error;
@@ -36,7 +36,7 @@ const METHODS: &[Method] = &[
         paper: "Gourmel et al. 2010, section 4",
         about: "A hierarchy whose leaves own their balls and name all others that reach in; boxes \
                 overlap, and a ray goes on until no nearer leaf is left.",
-        technique: Technique::Tree(Options::modified_bvh(), TraceOptions::DEFAULT),
+        technique: Technique::Tree(Options::modified_bvh(), Some(SecantSearch::DEFAULT)),
     },
     Method {
         name: "fbvh",
@@ -44,7 +44,7 @@ const METHODS: &[Method] = &[
         paper: "Gourmel et al. 2010, section 5",
         about: "Balls are split among leaves whose fitted boxes do not overlap; the first hit ends \
                 the ray.",
-        technique: Technique::Tree(Options::fitted(), TraceOptions::DEFAULT),
+        technique: Technique::Tree(Options::fitted(), Some(SecantSearch::DEFAULT)),
     },
     Method {
         name: "fbvh-certified",
@@ -52,7 +52,7 @@ const METHODS: &[Method] = &[
         paper: "not published: exact ranges in the place of the paper's assumption",
         about: "Boxes in which the field stays below or above the threshold are dropped or solid; \
                 the others are searched by exact bounds, so that no answer is wrong.",
-        technique: Technique::Tree(Options::certified(), TraceOptions::DEFAULT),
+        technique: Technique::Tree(Options::certified(), None),
     },
     Method {
         name: "kanamori",

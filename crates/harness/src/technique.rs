@@ -2,7 +2,7 @@
 //! this: its renderer, the tree that the CPU traces in its place, where it promises to be right, how
 //! near a root it stops, and the kernels that it refuses.
 
-use fbvh::{Kind, TraceOptions};
+use fbvh::{Kind, SecantSearch};
 use illes_fraglist::Piece;
 use metaball_core::gpu::IsoRenderer;
 use metaball_core::{Kernel, Scene};
@@ -13,8 +13,8 @@ use crate::judge::promise::Promise;
 /// What a method does, with all its options.
 #[derive(Debug, Clone, Copy)]
 pub enum Technique {
-    /// Traces a tree: Gourmel et al. 2010, and the certified tree.
-    Tree(fbvh::Options, TraceOptions),
+    /// Traces a tree: those of Gourmel et al. 2010, whose leaves are searched so, or the certified tree.
+    Tree(fbvh::Options, Option<SecantSearch>),
     /// Peels supports layer by layer: Kanamori et al. 2008.
     Peeling(kanamori_peel::Options),
     /// Searches tiles' lists of balls by intervals: `kanamori_peel::robust`.
@@ -42,8 +42,12 @@ impl Technique {
     /// A renderer of that name without a scene. It counts its work or, as when timing, does not.
     pub fn renderer(&self, name: &'static str, counting: bool) -> Box<dyn IsoRenderer> {
         match *self {
-            Self::Tree(options, trace) => {
-                Box::new(fbvh::gpu::Renderer::new(name, options, trace, counting))
+            Self::Tree(options, search) => {
+                let renderer = fbvh::gpu::Renderer::new(name, options, counting);
+                Box::new(match search {
+                    Some(search) => renderer.with_search(search).expect("a published tree"),
+                    None => renderer,
+                })
             }
             Self::Peeling(options) => {
                 Box::new(kanamori_peel::Renderer::new(name, options, counting))
@@ -87,10 +91,8 @@ impl Technique {
     /// How near a root it stops, rounding aside.
     pub fn stop(&self) -> Stop {
         match *self {
-            Self::Tree(options, trace) => match options.kind() {
-                Kind::ModifiedBvh | Kind::Fitted => Stop::Residual(trace.tolerance.into()),
-                Kind::Certified => Stop::ROUNDING,
-            },
+            Self::Tree(_, Some(search)) => Stop::Residual(search.tolerance.into()),
+            Self::Tree(_, None) => Stop::ROUNDING,
             // Half the threshold, times an interval of at most two radii, and ten roundings of a
             // distance of a few radii.
             Self::Peeling(options) => Stop::Distance(f64::from(options.threshold) + 9e-6),

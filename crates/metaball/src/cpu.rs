@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use fbvh::{Options, TraceOptions, Tracer, Tree};
+use fbvh::{Options, Tracer, Tree};
 use metaball_core::{Hit, Ray, Scene, View};
 
 use crate::{Error, Method};
@@ -30,7 +30,7 @@ pub(crate) fn trace(method: &Method, scene: &Scene, view: &View) -> Result<Trace
 
     let start = Instant::now();
     let rays = view.rays();
-    let tracer = Tracer::new(&tree, scene, TraceOptions::DEFAULT);
+    let tracer = Tracer::new(&tree, scene);
     let hits = tracer.picture_hits(&rays, view.width() as usize);
     Ok(Traced { rays, hits, build, frame: start.elapsed() })
 }

@@ -1,6 +1,6 @@
 //! Who finds the surface.
 
-use fbvh::{Kind, Options, TraceOptions};
+use fbvh::{Kind, Options};
 use metaball_core::gpu::IsoRenderer;
 
 /// A method of finding the surface along rays.
@@ -62,8 +62,8 @@ impl Method {
     pub(crate) fn renderer(&self, counting: bool) -> Option<Box<dyn IsoRenderer>> {
         match self {
             Self::Tree(options) => {
-                let (name, trace) = (tree_name(options.kind()), TraceOptions::DEFAULT);
-                Some(Box::new(fbvh::gpu::Renderer::new(name, *options, trace, counting)))
+                let name = tree_name(options.kind());
+                Some(Box::new(fbvh::gpu::Renderer::new(name, *options, counting)))
             }
             #[cfg(feature = "harness")]
             Self::Listed(configuration) => Some(configuration.renderer(counting)),

@@ -175,7 +175,7 @@ fn stored(channels: Vec3) -> Color {
 #[cfg(test)]
 mod tests {
     use bench_scenes::{Overrides, load};
-    use fbvh::{Options, TraceOptions};
+    use fbvh::Options;
     use metaball_core::WorkKind;
     use metaball_core::gpu::{self, Gpu, IsoRenderer, Shading, Targets};
 
@@ -193,8 +193,7 @@ mod tests {
             let view = View::new(bench.camera, 64, 48).expect("a size");
             let targets =
                 Targets::new(&gpu, 64, 48, scene.colors().is_some(), false).expect("room");
-            let mut renderer =
-                fbvh::gpu::Renderer::new("fbvh", Options::fitted(), TraceOptions::DEFAULT, false);
+            let mut renderer = fbvh::gpu::Renderer::new("fbvh", Options::fitted(), false);
             renderer.build(&gpu, scene).expect("built");
             gpu::render(&gpu, &mut renderer, &targets, &view).expect("drawn");
             let rays = targets.read_rays(&gpu, &view).expect("read");

@@ -77,7 +77,7 @@ fn depth_margin(seen: Projection, s: f32) -> f32 {
 // On an interval with these depths the kernel's derivative times `way`, which may be misplaced, is nowhere
 // less than this when a sum errs by such a part of its terms: each factor is bounded. What a ball falls
 // within the misplaced part of its way is the square of that, and within the margin of v. Twin:
-// least_product of crates/fbvh/src/trace/ranges.rs.
+// least_product of crates/fbvh/src/trace/certified/ranges.rs.
 fn least_product(seen: Projection, v: Depths, way: f32, doubt: f32) -> f32 {
     let gentlest = min(kernel_slope(v.least), kernel_slope(v.most)) * (1.0 - doubt);
     let steepest = steepest_slope(v.least, v.most) * (1.0 + doubt);

@@ -10,7 +10,7 @@
 #import fbvh::structure::EMPTY
 #import core::status::{report_finished, report_needed, report_unfinished}
 
-// Iterations after which a ray waits. LONGEST_LIST of crates/fbvh/src/gpu/device_tree.rs is 6,600: a walk
+// Iterations after which a ray waits. LONGEST_LIST of crates/fbvh/src/gpu/tree_buffers.rs is 6,600: a walk
 // along such a list, by words and bits, takes 6,808. So eight rays, each with such a walk after its way
 // back and a last look at its stack, come to 57,100, and to 63,700 with the walk for normals, which they do
 // together.
@@ -19,7 +19,7 @@
 // What it may take to get back to where a ray waited: two iterations a level, and more.
 const WAY_BACK: u32 = 256u;
 
-// A ray between two dispatches. Twin: Suspended of crates/fbvh/src/gpu/layout.rs.
+// A ray between two dispatches. Twin: Suspended of crates/fbvh/src/gpu/suspended.rs.
 struct Suspended {
     pixel: u32,
     // The node or leaf to go on with; EMPTY once the ray is finished.

@@ -267,7 +267,7 @@ fn write(pixel: u32, ray: Ray) {
     hit::write_hit_with_clearance(pixel, best_t, normal, best_status, clearance);
 }
 
-// What a start beside the hit must keep from it, along the normal: see "Rays that go on" in
+// What a start beside the hit must keep from it, along the normal: see "Secondary rays" in
 // crates/fbvh/src/gpu/mod.rs.
 fn clearance(ray: Ray, doubt: f32, steepness: f32, smallest: f32) -> f32 {
     let flattest = max(steepness, doubt / (smallest * 0x1p-10f));

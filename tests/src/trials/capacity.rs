@@ -2,7 +2,7 @@
 //! and the picture is right. Frames without end are errors.
 
 use bench_scenes::{Overrides, load};
-use fbvh::{TraceOptions, Tracer, Tree};
+use fbvh::{Tracer, Tree};
 use glam::Vec3;
 use harness::judge::Judge;
 use harness::methods::methods;
@@ -63,7 +63,7 @@ fn divergent_rays(gpu: &Gpu, method: &str) -> Result<(), Failed> {
 
     let options = tree_options(method)?;
     let tree = Tree::build(&scene, &options)?;
-    let twins = Tracer::new(&tree, &scene, TraceOptions::DEFAULT).first_hits(&picture.rays);
+    let twins = Tracer::new(&tree, &scene).first_hits(&picture.rays);
     let is_same = |ours: &Hit, twin: &Hit| {
         ours.verdict == twin.verdict && (!ours.is_hit() || (ours.t - twin.t).abs() <= 1e-4 * twin.t)
     };

@@ -1,6 +1,6 @@
 //! The tracers on the CPU and in WGSL are twins: along the same rays they find the same.
 
-use fbvh::{TraceOptions, Tracer, Tree};
+use fbvh::{Tracer, Tree};
 use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
@@ -25,7 +25,7 @@ fn hit_for_hit(gpu: &Gpu, scene: &'static str, method: &'static str) -> Result<(
     let fixture = fixture(gpu, scene)?;
     let options = tree_options(method)?;
     let tree = Tree::build(&fixture.scene.scene, &options)?;
-    let tracer = Tracer::new(&tree, &fixture.scene.scene, TraceOptions::DEFAULT);
+    let tracer = Tracer::new(&tree, &fixture.scene.scene);
     let hits = tracer.first_hits(fixture.judge.rays());
     pass(&fixture.judge.judge(&hits, &terms_of(method)?))?;
     let promise = terms_of(method)?.promise;

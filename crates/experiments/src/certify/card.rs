@@ -1,7 +1,7 @@
 //! The shaders as a tracer of rays that are made on the host.
 
+use fbvh::Options;
 use fbvh::gpu::Renderer;
-use fbvh::{Options, TraceOptions};
 use metaball_core::gpu::{
     FreeRay, Gpu, IsoRenderer, RayBatch, RayQuery, RenderError, Targets, render, render_with,
 };
@@ -39,8 +39,7 @@ impl<'a> Card<'a> {
         let known = self.renderers.iter().position(|kind| (kind.0, kind.1) == (kernel, strengths));
         let index = known.unwrap_or(self.renderers.len());
         if known.is_none() {
-            let (options, trace) = (Options::certified(), TraceOptions::DEFAULT);
-            let renderer = Renderer::new("fbvh-certified", options, trace, false);
+            let renderer = Renderer::new("fbvh-certified", Options::certified(), false);
             self.renderers.push((kernel, strengths, renderer));
         }
         let renderer = &mut self.renderers[index].2;

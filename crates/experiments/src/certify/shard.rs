@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use bench_scenes::{Case, Random, arbitrary, cases};
-use fbvh::{Options, TraceOptions, Tree};
+use fbvh::{Options, Tree};
 use glam::Vec3;
 use metaball_core::gpu::{FreeRay, RayQuery};
 use metaball_core::reference::{Oracle, Truth};
@@ -98,7 +98,7 @@ impl Shard {
         let name = self.name();
         let oracle = Oracle::new(&scene);
         let tree = Tree::build(&scene, &Options::certified()).with_context(|| name.clone())?;
-        let tracer = fbvh::Tracer::new(&tree, &scene, TraceOptions::DEFAULT);
+        let tracer = fbvh::Tracer::new(&tree, &scene);
         let mut session =
             card.map(|card| card.build(&scene)).transpose().with_context(|| name.clone())?;
         let rays = self.rays(wanted, &scene);
@@ -110,7 +110,7 @@ impl Shard {
         let answers = Answers {
             first_hits: first_hits(&tracer, &rays),
             any_hits: tracer.any_hits(&rays.any()),
-            exits: tracer.first_exits(&rays.exits()).unwrap_or_default(),
+            exits: tracer.first_exits(&rays.exits())?,
         };
         let exam = Exam {
             shard: &name,
@@ -310,7 +310,7 @@ mod tests {
 
     fn answers(scene: &Scene, rays: &Rays) -> Answers {
         let tree = Tree::build(scene, &Options::certified()).expect("a tree");
-        let tracer = fbvh::Tracer::new(&tree, scene, TraceOptions::DEFAULT);
+        let tracer = fbvh::Tracer::new(&tree, scene);
         Answers {
             first_hits: first_hits(&tracer, rays),
             any_hits: tracer.any_hits(&rays.any()),
@@ -380,7 +380,7 @@ mod tests {
         let trial = trial();
         let oracle = Oracle::new(&trial.scene);
         let tree = Tree::build(&trial.scene, &Options::certified()).expect("a tree");
-        let tracer = fbvh::Tracer::new(&tree, &trial.scene, TraceOptions::DEFAULT);
+        let tracer = fbvh::Tracer::new(&tree, &trial.scene);
         let answer = |free: &FreeRay| match free.query().expect("asked") {
             RayQuery::Exit => tracer.first_exit(&free.ray()).expect("certified"),
             RayQuery::FirstHit => tracer.first_hit(&free.ray()),

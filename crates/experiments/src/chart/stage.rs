@@ -2,7 +2,7 @@
 //! said of them on an axis.
 
 use bench_scenes::BenchScene;
-use fbvh::{Options, TraceOptions, Tracer, Tree};
+use fbvh::{Options, Tracer, Tree};
 use metaball_core::{Camera, Ray, Scene};
 use rayon::prelude::*;
 
@@ -37,7 +37,7 @@ pub(super) fn supports_per_ray(scene: &Scene, camera: &Camera) -> f64 {
 /// When the scene has no tree.
 pub(super) fn hit_share(scene: &Scene, camera: &Camera) -> anyhow::Result<f64> {
     let tree = Tree::build(scene, &Options::certified())?;
-    let tracer = Tracer::new(&tree, scene, TraceOptions::DEFAULT);
+    let tracer = Tracer::new(&tree, scene);
     let hits = tracer.first_hits(&rays(camera));
     Ok(hits.iter().filter(|hit| hit.is_hit()).count() as f64 / hits.len() as f64)
 }

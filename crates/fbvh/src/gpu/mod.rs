@@ -1,50 +1,51 @@
-//! Both structures traced on the graphics card, behind [`IsoRenderer`].
+//! The trees traced on the GPU, behind [`IsoRenderer`].
 //!
 //! # Theory
 //! The tree is built on the host and uploaded as it is ([`Node`](crate::Node),
-//! [`Leaf`](crate::Leaf) and lists of indices). One invocation traces one ray with the intersection
-//! test of Gourmel et al. 2010, section 3, as the CPU's [`Tracer`](crate::Tracer) does.
+//! [`Leaf`](crate::Leaf) and lists of indices). One invocation traces one ray as the CPU's
+//! [`Tracer`](crate::Tracer) does: leaves of published trees by the intersection test of Gourmel et al.
+//! 2010, section 3, those of certified trees by bounds that no root escapes.
 //!
 //! # Changes versus the paper
-//! *Rays can wait.* The leaf test is quadratic, and software Vulkan silently ends the loops of eight
-//! invocations after 65,535 iterations in all; a watchdog may do worse. So an invocation counts its own,
-//! and past a budget writes down where its ray stands; the next dispatch takes it up there. A frame
-//! begins with one dispatch over all rays, label `trace`, and goes on with indirect ones over
-//! the rays that wait, label `resume`. A frame that ends with rays waiting, or had no place for
-//! one, is incomplete; [`IsoRenderer::grow`] adds room or dispatches. Hence no ray is ever cut short,
-//! and a sparse scene pays with a few empty dispatches.
+//! *Rays can be suspended.* The leaf test is quadratic, and software Vulkan silently ends the loops of
+//! eight invocations after 65,535 iterations in all; a watchdog may do worse. So an invocation counts
+//! its own iterations, and past a budget stores the state of its ray; the next dispatch resumes it. A
+//! frame begins with one dispatch over all rays, label `trace`, and continues with indirect ones over
+//! the suspended rays, label `resume`. A frame that ends with suspended rays, or whose pool overflowed,
+//! is incomplete; [`IsoRenderer::grow`] adds capacity or dispatches. Hence no ray is ever cut short, and
+//! a sparse scene costs a few empty dispatches.
 //!
-//! *The stack cannot overflow*: the builder bounds the depth to what the shader has room for.
+//! *The stack cannot overflow*: the builder bounds the depth by the size of the shader's stack.
 //!
-//! # Rays that go on
-//! Free rays ([`RayTracer`]) run through the same shader; `ray/free.wgsl` hands them out, and
-//! `fbvh/excess/exit.wgsl` stands in for `fbvh/excess/entry.wgsl` where the way out of the solid is sought. A ray
-//! that goes on from a hit must start on the side of the surface that it leaves on, or it would find
-//! the surface it comes from; started too far off it would step over thin gaps. How far is enough
+//! # Secondary rays
+//! Free rays ([`RayTracer`]) run through the same shader; `shaders/wgsl/ray/free.wgsl` hands them out,
+//! and `shaders/wgsl/fbvh/excess/exit.wgsl` replaces `shaders/wgsl/fbvh/excess/entry.wgsl` where the exit
+//! from the solid is sought. A secondary ray must start on the side of the surface that it leaves to, or it would
+//! find the surface it comes from; started too far off it would step over thin gaps. How far is enough
 //! follows from how far the hit can be from the surface, u = 2⁻²³:
 //!
-//! - *The field's doubt.* The search knows F at the hit to ± δ, δ = Σ qᵢk′(vᵢ)·δvᵢ plus what it was
-//!   content with (nothing for the certified tree, tolerance·T for the published ones). δvᵢ is
+//! - *Uncertainty of the field.* The search knows F at the hit to ± δ, δ = Σ qᵢk′(vᵢ)·δvᵢ plus the
+//!   tolerance of the search (0 for the certified tree, tolerance·T for the published ones). δvᵢ is
 //!   u(26 + (24·D + 2⁻⁸·t)/Rᵢ) in a leaf of diagonal D, which no margin of the search itself exceeds.
-//!   So the surface is within δ/|∇F| of the hit. The start's own field is bounded with the same margins, to
-//!   ± δ again, and the gradient may halve on the way: 4δ/|∇F| along the normal put the start where
+//!   So the surface is within δ/|∇F| of the hit. The start's own field is bounded with the same margins,
+//!   to ± δ again, and the gradient may halve in between: 4δ/|∇F| along the normal put the start where
 //!   the search is certain of its side.
 //! - *Where the field is flat* a first-order step would be long, but there the field falls by
-//!   curvature, q·k″/R² per unit squared: δ of 2⁻¹⁶ is made good within 2⁻⁸R, and no step is longer.
-//! - *The point itself.* o + t·d errs by u(|o| + 2t + |o + t·d|) at the most, and the moved start is
+//!   curvature, q·k″/R² per unit squared: δ of 2⁻¹⁶ is made up for within 2⁻⁸R, and no step is longer.
+//! - *Rounding of the point.* o + t·d errs by u(|o| + 2t + |o + t·d|) at the most, and the moved start is
 //!   rounded again: twice that, and twice more since d is unit to rounding only.
 //!
 //! The sum is the hit's clearance ([`PackedHit::clearance`](metaball_core::PackedHit::clearance)). All
-//! its terms scale with the scene, and at the size of the world only with what f32 coordinates can
-//! tell apart; nothing is tuned. A start whose side is still in doubt is answered *undecided*.
+//! its terms scale with the scene, and with the coordinates' size only as f32 resolves them; nothing is
+//! tuned. A start whose side is still uncertain is answered *undecided*.
 //!
 //! # Practice
 //! Pipelines are compiled at the first build and again only when a scene needs other ones: another
 //! kernel, strengths or colours where there were none.
 
-mod device_tree;
 mod pipelines;
-mod waiting;
+mod suspended;
+mod tree_buffers;
 
 use std::time::Instant;
 
@@ -54,22 +55,23 @@ use metaball_core::gpu::{
     SceneBuffers, Specialization,
 };
 
-use self::device_tree::DeviceTree;
 use self::pipelines::{Pipelines, Specialized, TracePipelines};
-use self::waiting::WaitingRoom;
-use crate::{Kind, Options, TraceOptions, Tree};
+use self::suspended::SuspendedPool;
+use self::tree_buffers::TreeBuffers;
+use crate::{Options, SecantSearch, TraceError, Tree};
 
-/// Dispatches after the first that a frame begins life with.
+/// Dispatches after the first that a frame has until it grows.
 const FIRST_RESUMES: u32 = 4;
 
-/// Dispatches after which a frame is given up as unfinished: seconds, were they empty.
+/// Dispatches after which a frame is given up as incomplete: seconds even if they were empty.
 const MOST_RESUMES: u32 = 1 << 16;
 
-/// Draws primary rays through a tree of the scene.
+/// Draws primary rays through a tree of the scene, and answers queries of free rays.
 pub struct Renderer {
     name: &'static str,
     options: Options,
-    trace_options: TraceOptions,
+    /// How leaves of a published tree are searched.
+    search: Option<SecantSearch>,
     counting: bool,
     resumes: u32,
     pipelines: Option<Pipelines>,
@@ -79,27 +81,45 @@ pub struct Renderer {
 /// What depends on the scene.
 struct Built {
     scene: SceneBuffers,
-    tree: DeviceTree,
-    waiting: WaitingRoom,
+    tree: TreeBuffers,
+    suspended: SuspendedPool,
 }
 
 impl Renderer {
-    /// A renderer without a scene. `counting` makes shaders that count their work, which costs
-    /// time.
-    pub fn new(
-        name: &'static str,
-        options: Options,
-        trace_options: TraceOptions,
-        counting: bool,
-    ) -> Self {
+    /// A renderer without a scene, with a name for reports and errors. `counting` makes shaders that
+    /// count their work, which costs time.
+    ///
+    /// Leaves of published trees are searched as [`SecantSearch::DEFAULT`] says;
+    /// [`Renderer::with_search`] changes that.
+    pub fn new(name: &'static str, options: Options, counting: bool) -> Self {
         Self {
             name,
             options,
-            trace_options,
+            search: options.kind().is_published().then_some(SecantSearch::DEFAULT),
             counting,
             resumes: FIRST_RESUMES,
             pipelines: None,
             built: None,
+        }
+    }
+
+    /// The same with other options for the leaves of a published tree. Pipelines are compiled anew.
+    ///
+    /// # Errors
+    /// [`TraceError::SecantOfCertified`] when the tree is certified: it has no such options.
+    pub fn with_search(self, search: SecantSearch) -> Result<Self, TraceError> {
+        if self.search.is_none() {
+            return Err(TraceError::SecantOfCertified { found: self.options.kind() });
+        }
+        Ok(Self { search: Some(search), pipelines: None, built: None, ..self })
+    }
+
+    fn check(&self, query: RayQuery) -> Result<(), TraceError> {
+        match self.options.kind() {
+            found if query == RayQuery::Exit && found.is_published() => {
+                Err(TraceError::ExitOfPublished { found })
+            }
+            _ => Ok(()),
         }
     }
 }
@@ -124,18 +144,18 @@ impl IsoRenderer for Renderer {
         };
         let pipelines = match self.pipelines.take() {
             Some(pipelines) if pipelines.specialized == specialized => pipelines,
-            _ => Pipelines::new(gpu, specialized, &self.trace_options)?,
+            _ => Pipelines::new(gpu, specialized, self.search)?,
         };
         let compilation = start.elapsed();
 
         let scene = SceneBuffers::new(gpu, scene)?;
-        let waiting = WaitingRoom::new(gpu)?;
-        let device_tree = DeviceTree::new(gpu, self.name, &pipelines.layouts, &tree, &waiting)?;
+        let suspended = SuspendedPool::new(gpu)?;
+        let buffers = TreeBuffers::new(gpu, self.name, &pipelines.layouts, &tree, &suspended)?;
         let report = BuildReport {
             structure,
             pipelines: compilation,
-            upload_bytes: scene.bytes() + device_tree.bytes(),
-            device_bytes: scene.bytes() + device_tree.bytes(),
+            upload_bytes: scene.bytes() + buffers.bytes(),
+            device_bytes: scene.bytes() + buffers.bytes(),
             facts: vec![
                 ("nodes", tree.nodes().len() as f64),
                 ("leaves", tree.leaf_count() as f64),
@@ -143,7 +163,7 @@ impl IsoRenderer for Renderer {
             ],
         };
         self.pipelines = Some(pipelines);
-        self.built = Some(Built { scene, tree: device_tree, waiting });
+        self.built = Some(Built { scene, tree: buffers, suspended });
         Ok(report)
     }
 
@@ -157,17 +177,17 @@ impl IsoRenderer for Renderer {
     }
 
     fn frame_bytes(&self) -> u64 {
-        self.built.as_ref().map_or(0, |built| built.waiting.bytes())
+        self.built.as_ref().map_or(0, |built| built.suspended.bytes())
     }
 
     fn grow(&mut self, gpu: &Gpu, status: &FrameStatus) -> Result<bool, RenderError> {
         let (Some(pipelines), Some(built)) = (&self.pipelines, &mut self.built) else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
-        let slots = status.needed[0];
-        if slots > built.waiting.slots() {
-            built.waiting = WaitingRoom::with_slots(gpu, slots)?;
-            built.tree.rebind(gpu, &pipelines.layouts, &built.waiting);
+        let capacity = status.needed[0];
+        if capacity > built.suspended.capacity() {
+            built.suspended = SuspendedPool::with_capacity(gpu, capacity)?;
+            built.tree.rebind(gpu, &pipelines.layouts, &built.suspended);
             return Ok(true);
         }
         let can_grow = self.resumes < MOST_RESUMES;
@@ -182,7 +202,7 @@ impl IsoRenderer for Renderer {
 
 impl RayTracer for Renderer {
     fn answers(&self, query: RayQuery) -> bool {
-        query != RayQuery::Exit || self.options.kind() == Kind::Certified
+        self.check(query).is_ok()
     }
 
     fn encode_answers(
@@ -191,11 +211,10 @@ impl RayTracer for Renderer {
         batch: &RayBatch,
         query: RayQuery,
     ) -> Result<(), RenderError> {
-        if !self.answers(query) {
-            let reason = "needed a certified tree to tell where rays leave the solid, found a \
-                          published one";
-            return Err(RenderError::Unsupported { method: self.name, reason: reason.to_owned() });
-        }
+        self.check(query).map_err(|error| RenderError::Unsupported {
+            method: self.name,
+            reason: error.to_string(),
+        })?;
         let (Some(pipelines), Some(built)) = (&mut self.pipelines, &self.built) else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
@@ -215,11 +234,11 @@ impl RayTracer for Renderer {
 enum Rays<'a> {
     /// One a pixel.
     OfView,
-    /// Those of a batch that are on its list.
+    /// Those on the list of a batch.
     Listed(&'a RayBatch),
 }
 
-/// One dispatch over all rays, and indirect ones over those that wait.
+/// One dispatch over all rays, and indirect ones over those that are suspended.
 fn record(
     frame: &mut Frame<'_>,
     built: &Built,
@@ -237,7 +256,7 @@ fn record(
         pass.set_bind_group(1, built.scene.bind_group(), &[]);
         pass.set_bind_group(2, built.tree.bind_group(), &[]);
     };
-    built.waiting.clear(frame.encoder());
+    built.suspended.clear(frame.encoder());
     let (across, down) = frame.targets().workgroups();
     frame.compute(first, |pass| {
         pass.set_pipeline(&pipelines.trace);
@@ -247,12 +266,12 @@ fn record(
             Rays::Listed(batch) => pass.dispatch_workgroups_indirect(batch.list(), 0),
         }
     });
-    built.waiting.count(frame.encoder());
+    built.suspended.count(frame.encoder());
     for _ in 0..resumes {
         frame.compute(next, |pass| {
             pass.set_pipeline(&pipelines.resume);
             bind(pass);
-            pass.dispatch_workgroups_indirect(built.waiting.arguments(), 0);
+            pass.dispatch_workgroups_indirect(built.suspended.arguments(), 0);
         });
     }
 }
@@ -261,7 +280,7 @@ fn record(
 mod tests {
     use metaball_shaders::{KernelModule, Variant, compose, host_layout, struct_layout};
 
-    use super::waiting::{PoolHead, Suspended};
+    use super::suspended::{PoolHead, Suspended};
     use crate::{Leaf, Node};
 
     #[test]

@@ -6,9 +6,9 @@ use metaball_core::gpu::{
 };
 use metaball_core::{Kernel, KernelForm};
 
-use crate::{Kind, Reading, TraceOptions};
+use crate::{Kind, Reading, SecantSearch};
 
-/// What selects pipelines; when it stays the same, they stay.
+/// What pipelines depend on; while it stays the same, they stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Specialized {
     pub(super) scene: Specialization,
@@ -24,27 +24,27 @@ pub(super) struct Layouts {
     pub(super) tree: wgpu::BindGroupLayout,
 }
 
-/// `fbvh/trace.wgsl`, both entry points, for rays of one kind.
+/// Both entry points of `shaders/wgsl/fbvh/trace.wgsl`, for one source of rays.
 pub(super) struct TracePipelines {
     pub(super) trace: wgpu::ComputePipeline,
     pub(super) resume: wgpu::ComputePipeline,
 }
 
-/// The pipelines of a scene: for primary rays at once, for each query of free rays when it is
-/// first asked.
+/// The pipelines of a scene: for primary rays at once, for each query of free rays when it is first
+/// used.
 pub(super) struct Pipelines {
     pub(super) specialized: Specialized,
     pub(super) layouts: Layouts,
     pub(super) primary: TracePipelines,
     free: [Option<TracePipelines>; RayQuery::ALL.len()],
-    options: TraceOptions,
+    search: Option<SecantSearch>,
 }
 
 impl Pipelines {
     pub(super) fn new(
         gpu: &Gpu,
         specialized: Specialized,
-        options: &TraceOptions,
+        search: Option<SecantSearch>,
     ) -> Result<Self, RenderError> {
         let scene = &specialized.scene;
         let layouts = Layouts {
@@ -53,8 +53,8 @@ impl Pipelines {
             scene: scene_layout(gpu, scene),
             tree: tree_layout(gpu),
         };
-        let primary = TracePipelines::new(gpu, &specialized, &layouts, options, None)?;
-        Ok(Self { specialized, layouts, primary, free: Default::default(), options: *options })
+        let primary = TracePipelines::new(gpu, &specialized, &layouts, search, None)?;
+        Ok(Self { specialized, layouts, primary, free: Default::default(), search })
     }
 
     /// The pipelines of that query, made when it is first used.
@@ -63,18 +63,18 @@ impl Pipelines {
         gpu: &Gpu,
         query: RayQuery,
     ) -> Result<&TracePipelines, RenderError> {
-        let place = &mut self.free[query as usize - 1];
-        let made = match place.take() {
+        let slot = &mut self.free[query as usize - 1];
+        let made = match slot.take() {
             Some(made) => made,
             None => TracePipelines::new(
                 gpu,
                 &self.specialized,
                 &self.layouts,
-                &self.options,
+                self.search,
                 Some(query),
             )?,
         };
-        Ok(place.insert(made))
+        Ok(slot.insert(made))
     }
 }
 
@@ -84,25 +84,16 @@ impl TracePipelines {
         gpu: &Gpu,
         specialized: &Specialized,
         layouts: &Layouts,
-        options: &TraceOptions,
+        search: Option<SecantSearch>,
         query: Option<RayQuery>,
     ) -> Result<Self, RenderError> {
         let Specialized { scene, kind, root } = *specialized;
         let spec = scene.choosing(modules(kind, &scene, query));
-        // Section 4 leaves no choice: the modified BVH is always read literally.
-        let clipped = kind == Kind::Fitted && options.reading == Reading::Clipped;
-        // The ids of the override constants in fbvh/leaf/published.wgsl and fbvh/trace.wgsl.
-        let published = [
-            ("17", f64::from(u8::from(kind == Kind::Fitted))),
-            ("18", f64::from(u8::from(clipped))),
-            ("19", f64::from(options.tolerance)),
-            ("20", f64::from(options.max_iterations)),
-        ];
+        // The ids of the override constants in shaders/wgsl/fbvh/trace.wgsl and, of published trees, in
+        // shaders/wgsl/fbvh/leaf/published.wgsl.
         let mut constants = vec![("21", f64::from(root))];
         constants.extend(query.map(|query| (RayQuery::CONSTANT, f64::from(query as u32))));
-        if kind != Kind::Certified {
-            constants.extend(published);
-        }
+        constants.extend(search.into_iter().flat_map(|search| secant_constants(kind, &search)));
         let rays = if query.is_some() { &layouts.free } else { &layouts.primary };
         let groups = [rays, &layouts.scene, &layouts.tree];
         let pipeline = |label, entry| {
@@ -115,7 +106,19 @@ impl TracePipelines {
     }
 }
 
-/// Where rays come from, and how leaves are searched.
+/// The override constants of a published leaf's search.
+fn secant_constants(kind: Kind, search: &SecantSearch) -> [(&'static str, f64); 4] {
+    // Section 4 leaves no choice: the modified BVH is always read literally.
+    let clipped = kind == Kind::Fitted && search.reading == Reading::Clipped;
+    [
+        ("17", f64::from(u8::from(kind == Kind::Fitted))),
+        ("18", f64::from(u8::from(clipped))),
+        ("19", f64::from(search.tolerance)),
+        ("20", f64::from(search.max_iterations)),
+    ]
+}
+
+/// The shader modules for the source of rays and the search of leaves.
 fn modules(kind: Kind, scene: &Specialization, query: Option<RayQuery>) -> &'static [&'static str] {
     let is_quartic = scene.kernel == Kernel::QUARTIC && scene.kernel_form == KernelForm::Known;
     match (kind, query) {
@@ -148,7 +151,7 @@ fn modules(kind: Kind, scene: &Specialization, query: Option<RayQuery>) -> &'sta
     }
 }
 
-/// Group 2: nodes, leaves, lists, and the pool of waiting rays.
+/// Group 2: nodes, leaves, lists, and the pool of suspended rays.
 fn tree_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let bindings =
         [(0, Binding::Read), (1, Binding::Read), (2, Binding::Read), (3, Binding::Write)];

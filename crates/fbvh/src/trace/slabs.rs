@@ -3,12 +3,12 @@
 use glam::Vec3;
 use metaball_core::{Aabb, Ray};
 
-/// A ray prepared for boxes.
+/// A ray prepared for tests against boxes.
 pub(super) struct Slabs {
     origin: Vec3,
     inverse: Vec3,
     /// Per axis: whether the ray goes towards −∞.
-    falls: [bool; 3],
+    is_negative: [bool; 3],
 }
 
 /// 1 + 2γ₃, γ₃ = 3w/(1 − 3w), w = 2⁻²⁴: after this no rounding of the three operations can make a
@@ -18,12 +18,12 @@ pub(super) const WIDER: f32 = 1.0 + 4e-7;
 impl Slabs {
     pub(super) fn new(ray: &Ray) -> Self {
         let inverse = ray.direction.recip();
-        let falls = inverse.to_array().map(f32::is_sign_negative);
-        Self { origin: ray.origin, inverse, falls }
+        let is_negative = inverse.to_array().map(f32::is_sign_negative);
+        Self { origin: ray.origin, inverse, is_negative }
     }
 
     /// Where the ray enters and leaves the closed box, within 0 ≤ t ≤ `t_max`; `None` where it
-    /// passes it by.
+    /// misses it.
     ///
     /// A ray that lies in the plane of a face has 0·∞ = NaN there; no comparison with it holds,
     /// which counts the face as part of the box.
@@ -32,9 +32,9 @@ impl Slabs {
         let (mut enter, mut leave) = (0.0f32, t_max);
         for axis in 0..3 {
             let faces = [bounds.min[axis], bounds.max[axis]];
-            let falls = usize::from(self.falls[axis]);
-            let near = (faces[falls] - self.origin[axis]) * self.inverse[axis];
-            let far = (faces[1 - falls] - self.origin[axis]) * self.inverse[axis] * WIDER;
+            let first = usize::from(self.is_negative[axis]);
+            let near = (faces[first] - self.origin[axis]) * self.inverse[axis];
+            let far = (faces[1 - first] - self.origin[axis]) * self.inverse[axis] * WIDER;
             enter = if near > enter { near } else { enter };
             leave = if far < leave { far } else { leave };
         }

@@ -6,12 +6,12 @@
 //! at all: a field that is no scene must be refused by builders as by [`Scene::new`], and nothing may
 //! panic.
 
-use fbvh::{Field, Options, TraceOptions, Tracer, Tree};
+use fbvh::{Field, Options, Tracer, Tree};
 use glam::Vec3;
 use metaball_core::reference::Oracle;
 use metaball_core::{Kernel, Metaball, Ray, Scene, Support};
 
-/// Balls that nobody has looked at.
+/// Balls that nothing has checked.
 struct Unchecked {
     balls: Vec<Metaball>,
     kernel: Kernel,
@@ -41,12 +41,12 @@ impl Field for Unchecked {
     }
 }
 
-/// What came of some bytes.
+/// What some bytes were.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// Too few to say anything.
     TooFew,
-    /// No scene, and refused.
+    /// No legal scene, and refused.
     Refused,
     /// A scene; so many of its rays hit.
     Traced(usize),
@@ -85,11 +85,11 @@ pub(crate) fn build_and_trace(bytes: &[u8]) -> Outcome {
         let ray = Ray::new(start, (end - start).normalize_or(Vec3::Z));
         for (tree, options) in trees.iter().zip(structures) {
             let tree = tree.as_ref().expect("a scene has a tree");
-            let tracer = Tracer::new(tree, &field, TraceOptions::DEFAULT);
+            let tracer = Tracer::new(tree, &field);
             let (hit, any, exit) =
                 (tracer.first_hit(&ray), tracer.any_hit(&ray), tracer.first_exit(&ray));
             assert!(!hit.is_hit() || hit.t >= 0.0, "{ray:?}: {hit:?}");
-            assert_eq!(exit.is_some(), options == Options::certified());
+            assert_eq!(exit.is_ok(), options == Options::certified());
             if options != Options::certified() || !is_tame {
                 continue;
             }

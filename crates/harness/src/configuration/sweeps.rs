@@ -1,6 +1,6 @@
 //! The knobs of every method: each turned on its own, from the method's preset.
 
-use fbvh::{Boxes, Classes, Cost, Fitting, Options, Reading, Structure, TraceOptions};
+use fbvh::{Boxes, Classes, Cost, Fitting, Options, Reading, SecantSearch, Structure};
 use illes_fraglist::Sort;
 use kanamori_peel::{Clipping, Outline, Registration};
 
@@ -64,14 +64,14 @@ fn tree(
     method: &'static Method,
     option: &str,
     value: &str,
-    change: impl Fn(&mut Options, &mut TraceOptions),
+    change: impl Fn(&mut Options, &mut Option<SecantSearch>),
 ) -> Option<Configuration> {
-    let Technique::Tree(preset, preset_trace) = method.technique else { return None };
-    let (mut options, mut trace) = (preset, preset_trace);
-    change(&mut options, &mut trace);
-    let is_preset = options == preset && trace == preset_trace;
+    let Technique::Tree(preset, preset_search) = method.technique else { return None };
+    let (mut options, mut search) = (preset, preset_search);
+    change(&mut options, &mut search);
+    let is_preset = options == preset && search == preset_search;
     (!is_preset)
-        .then(|| Configuration::with(method, option, value, Technique::Tree(options, trace)))
+        .then(|| Configuration::with(method, option, value, Technique::Tree(options, search)))
 }
 
 /// How closely the secant search closes in (section 3), and how the leaf test is read.
@@ -81,12 +81,15 @@ fn searches(method: &'static Method, has_readings: bool) -> Vec<Configuration> {
     let mut configurations: Vec<_> = tolerances
         .into_iter()
         .filter_map(|(name, tolerance)| {
-            tree(method, "tolerance", name, |_, trace| trace.tolerance = tolerance)
+            tree(method, "tolerance", name, |_, search| {
+                *search = search.map(|search| SecantSearch { tolerance, ..search });
+            })
         })
         .collect();
     if has_readings {
-        let literal = |_: &mut Options, trace: &mut TraceOptions| trace.reading = Reading::Literal;
-        configurations.extend(tree(method, "reading", "literal", literal));
+        configurations.extend(tree(method, "reading", "literal", |_, search| {
+            *search = search.map(|search| SecantSearch { reading: Reading::Literal, ..search });
+        }));
     }
     configurations
 }

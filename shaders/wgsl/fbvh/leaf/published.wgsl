@@ -1,6 +1,6 @@
 // The intersection test of Gourmel et al. 2010, section 3, in one leaf: the first projection of a
 // centre at which the field is above the threshold closes a bracket, and the secant method narrows
-// it. Twin: crates/fbvh/src/trace.rs.
+// it. Twin: crates/fbvh/src/trace/secant.rs.
 
 #import core::field::{contribution, depth_below_rim, offset_at}
 #import core::hit::{HIT, INSIDE}

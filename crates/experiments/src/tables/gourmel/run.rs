@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use bench_scenes::{Overrides, load};
 use fbvh::gpu::Renderer;
-use fbvh::{Options, Stats, TraceOptions, Tree};
+use fbvh::{Options, Stats, Tree};
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets};
 use metaball_core::{Metaball, Scene};
 use serde::{Deserialize, Serialize};
@@ -181,8 +181,7 @@ fn scaled(scene: Scene, factor: f32) -> anyhow::Result<Scene> {
 }
 
 fn renderer(setting: Setting, counting: bool) -> Box<dyn IsoRenderer> {
-    let (options, trace) = (setting.options(), TraceOptions::default());
-    Box::new(Renderer::new("fbvh", options, trace, counting))
+    Box::new(Renderer::new("fbvh", setting.options(), counting))
 }
 
 /// Times building, and tells how large the tree is.

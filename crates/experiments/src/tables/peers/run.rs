@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::Context;
 use bench_scenes::{Overrides, load};
-use fbvh::{Options, TraceOptions, Tracer, Tree};
+use fbvh::{Options, Tracer, Tree};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Kernel, Ray, Scene, View};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -175,7 +175,7 @@ fn trace(scene: &Scene, view: &View, rounds: &mut Rounds) -> anyhow::Result<Vec<
     rounds.prepare.push(milliseconds(start.elapsed()));
 
     let (start, cpu) = (Instant::now(), processor_ms());
-    let tracer = Tracer::new(&tree, scene, TraceOptions::DEFAULT);
+    let tracer = Tracer::new(&tree, scene);
     let hits = tracer.picture_hits(&view.rays(), view.width() as usize);
     rounds.trace.push(milliseconds(start.elapsed()));
     rounds.cpu.extend(processor_ms().zip(cpu).map(|(end, start)| end - start));

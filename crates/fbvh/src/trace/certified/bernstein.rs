@@ -46,7 +46,7 @@ fn between<T: Number>(start: T, end: T, x: T) -> T {
     start + x * (end - start)
 }
 
-/// Where a polynomial that is negative at 0 first may reach 0: never after the first root. `None`
+/// Where a polynomial that is negative at 0 may first reach 0: never after the first root. `None`
 /// where there is none.
 ///
 /// Control points lie below the steepest line from the first of them to another, and so does the
@@ -66,7 +66,7 @@ pub(super) fn negative_until<const N: usize>(mut coefficients: [f64; N]) -> Opti
             return None;
         }
         let x = x.clamp(0.0, 1.0);
-        // Short of it by more than the rounding of a few lerps.
+        // Before it by more than the rounding of a few interpolations.
         let x = x * (1.0 - 1e-9);
         start += x * (1.0 - start);
         if clip + 1 == CLIPS || x < 0.05 {
@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Lerps of coefficients up to 1 err by a few 1e-16.
+        /// Interpolations of coefficients up to 1 err by a few 1e-16.
         #[test]
         fn nothing_is_reached_before(coefficients in [-1.0f64..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0]) {
             prop_assume!(coefficients[0] < 0.0);

@@ -1,11 +1,13 @@
-//! A leaf's balls as a packet of rays sees them.
+//! A leaf's balls, and where a packet of rays sees them.
 
-use super::lanes::{Lanes, WIDTH, array_of, lanes_of};
-use super::pack::{Part, UNIT};
-use super::packet::{Exact, Packet, length_squared};
+use metaball_core::Aabb;
+
+use super::super::lanes::{Lanes, WIDTH, array_of, lanes_of};
+use super::super::parabolas::{Parabolas, UNIT};
+use super::rays::{ExactPacket, Packet, length_squared};
 use crate::Field;
 
-/// A ball, seen from the middle of its leaf's box.
+/// A ball, relative to the middle of its leaf's box.
 #[derive(Debug, Clone)]
 pub(super) struct Ball {
     /// The centre, f64 and rounded.
@@ -17,12 +19,12 @@ pub(super) struct Ball {
     /// R and 1/R.
     pub(super) radius: f32,
     pub(super) inverse_radius: f32,
-    /// The centre's distance over R.
-    pub(super) away: f32,
+    /// The centre's distance from the middle over R.
+    pub(super) distance: f32,
     pub(super) strength: f32,
 }
 
-/// Eight balls, for telling which of them a packet passes by.
+/// Eight balls, for culling those that a packet misses.
 #[derive(Debug, Clone)]
 struct Block {
     center: [Lanes<f32>; 3],
@@ -32,41 +34,36 @@ struct Block {
     balls: u32,
 }
 
-/// A leaf made ready for packets; kept from leaf to leaf for its memory.
+/// A leaf that has been loaded for packets; kept from leaf to leaf for its memory.
 #[derive(Debug, Default)]
-pub(super) struct Nearby {
+pub(super) struct Balls {
     leaf: Option<usize>,
     middle: [f64; 3],
     pub(super) balls: Vec<Ball>,
     blocks: Vec<Block>,
-    /// The balls that reach a ray's stretch, and what the rays make of each.
+    /// The balls that reach a ray's interval, and each along the rays.
     pub(super) kept: Vec<u32>,
-    pub(super) parts: Vec<Part>,
+    pub(super) parabolas: Vec<Parabolas>,
 }
 
-/// The rays' stretches in a leaf, from points beside the leaf's middle, as
-/// [`Local`](super::pack::Local).
-pub(super) struct Locals {
+/// The rays' intervals in a leaf, each relative to a nearby origin: t there is `base` more than here,
+/// where it runs from −`half` to `half`.
+pub(super) struct RelativePacket {
+    /// The nearby origins, from the middle of the leaf's box.
     pub(super) origin: [Lanes<f64>; 3],
     pub(super) base: Lanes<f64>,
     pub(super) half: Lanes<f32>,
-    /// How far points of the stretches and their origins are from the leaf's middle, and what f64
-    /// rounds on the way from the eye.
+    /// How far points of the intervals and their origins are from the leaf's middle, and what f64
+    /// rounds between the eye and the origins.
     pub(super) reach: Lanes<f32>,
 }
 
 /// More than all that f32 rounds of distances, per distance from the leaf's middle.
-const FAR: f32 = 64.0 * UNIT;
+const ROUNDED: f32 = 64.0 * UNIT;
 
-impl Nearby {
-    /// Takes up the balls of a leaf, unless it holds them already.
-    pub(super) fn take(
-        &mut self,
-        field: &impl Field,
-        leaf: usize,
-        bounds: &metaball_core::Aabb,
-        list: &[u32],
-    ) {
+impl Balls {
+    /// Loads the balls of a leaf, unless it is loaded already.
+    pub(super) fn load(&mut self, field: &impl Field, leaf: usize, bounds: &Aabb, list: &[u32]) {
         if self.leaf == Some(leaf) {
             return;
         }
@@ -87,7 +84,7 @@ impl Nearby {
                 inverse_square_f32: inverse_square as f32,
                 radius: support.radius,
                 inverse_radius,
-                away: rounded.length() * inverse_radius,
+                distance: rounded.length() * inverse_radius,
                 strength: field.strength(ball as usize),
             }
         }));
@@ -99,32 +96,33 @@ impl Nearby {
                 for (lanes, coordinate) in center.iter_mut().zip(ball.center) {
                     lanes.0[lane] = coordinate;
                 }
-                radius.0[lane] = ball.radius * (1.0 + FAR * ball.away);
+                radius.0[lane] = ball.radius * (1.0 + ROUNDED * ball.distance);
             }
             Block { center, radius, balls: (1 << balls.len()) - 1 }
         }));
     }
 
-    /// Lists the balls that may reach a stretch: those that come as near to that of one ray as the
-    /// other rays' are, a point of which is no farther from its twin there than the ends are.
+    /// Lists the balls that may reach an interval. They are found along the interval of the ray in
+    /// `lane`, within the radius plus the spread of the packet: a point of another ray's interval is no
+    /// farther from its counterpart there than the ends of the two intervals are.
     #[inline(always)]
-    pub(super) fn cull(&mut self, packet: &Packet, locals: &Locals, asked: usize) {
+    pub(super) fn cull(&mut self, packet: &Packet, relative: &RelativePacket, lane: usize) {
         let zero = Lanes::splat(0.0f32);
         let (mut start, mut end) = (zero, zero);
         let (mut from, mut way) = ([zero; 3], [zero; 3]);
         for axis in 0..3 {
-            let origin = locals.origin[axis].map(|x| x as f32);
-            let half_way = packet.direction[axis] * locals.half;
+            let origin = relative.origin[axis].map(|x| x as f32);
+            let half_way = packet.direction[axis] * relative.half;
             let (near, far) = (origin - half_way, origin + half_way);
-            from[axis] = Lanes::splat(near.0[asked]);
-            way[axis] = Lanes::splat(far.0[asked] - near.0[asked]);
-            let (near, far) = (near - from[axis], far - Lanes::splat(far.0[asked]));
+            from[axis] = Lanes::splat(near.0[lane]);
+            way[axis] = Lanes::splat(far.0[lane] - near.0[lane]);
+            let (near, far) = (near - from[axis], far - Lanes::splat(far.0[lane]));
             start += near * near;
             end += far * far;
         }
-        let spread = start.max(end).sqrt() + locals.reach * FAR;
+        let spread = start.max(end).sqrt() + relative.reach * ROUNDED;
         let square = length_squared(way);
-        // Where f32 overflows no ball is passed by.
+        // Where f32 overflows no ball is culled.
         let is_finite = (spread + square).0.iter().all(|number| number.is_finite());
         let widest = spread.0.into_iter().fold(0.0f32, f32::max);
         let spread = if is_finite { widest } else { f32::INFINITY };
@@ -142,15 +140,16 @@ impl Nearby {
         }
     }
 
-    /// Moves the rays' origins beside the leaf, in f64. Lanes that are not asked repeat one that is.
+    /// Moves the rays' origins to the middles of their intervals, in f64. All other lanes than those
+    /// given repeat one of them.
     #[inline(always)]
-    pub(super) fn locals(
+    pub(super) fn relative(
         &self,
         packet: &Packet,
-        exact: &Exact,
+        exact: &ExactPacket,
         (start, end): (Lanes<f64>, Lanes<f64>),
         lanes: u32,
-    ) -> Locals {
+    ) -> RelativePacket {
         // Rounded up, as for a single ray.
         let half = ((end - start) * 0.5).map(|half| {
             (half * (1.0 + f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE)) as f32
@@ -167,14 +166,14 @@ impl Nearby {
         let far = exact.distance + Lanes::splat(middle) + base.map(|base| base.abs() as f32);
         let far = far * (4.0 * f64::EPSILON / f64::from(UNIT)) as f32;
         let reach = (distance * 2.0 + half * exact.length + far) * 1.000_01;
-        let mut locals = Locals { origin, base, half, reach };
-        let asked = lanes.trailing_zeros() as usize;
+        let mut relative = RelativePacket { origin, base, half, reach };
+        let first = lanes.trailing_zeros() as usize;
         for lane in lanes_of(!lanes) {
-            locals.origin.iter_mut().for_each(|numbers| numbers.0[lane] = numbers.0[asked]);
-            locals.base.0[lane] = locals.base.0[asked];
-            locals.half.0[lane] = locals.half.0[asked];
-            locals.reach.0[lane] = locals.reach.0[asked];
+            relative.origin.iter_mut().for_each(|numbers| numbers.0[lane] = numbers.0[first]);
+            relative.base.0[lane] = relative.base.0[first];
+            relative.half.0[lane] = relative.half.0[first];
+            relative.reach.0[lane] = relative.reach.0[first];
         }
-        locals
+        relative
     }
 }

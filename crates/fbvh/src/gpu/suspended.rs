@@ -1,9 +1,9 @@
-//! Where rays wait between two dispatches: the host's side of `fbvh/suspend.wgsl`.
+//! Where rays are kept between two dispatches: the host's side of `shaders/wgsl/fbvh/suspend.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError};
 
-/// A waiting ray; WGSL's `Suspended`. The host only needs its size.
+/// A suspended ray, WGSL's `Suspended`. The host only needs its size.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(super) struct Suspended {
@@ -21,7 +21,7 @@ pub(super) struct Suspended {
     pub(super) best_status: u32,
 }
 
-/// The head of WGSL's `Pool`: the size of the next dispatch, and how many rays wait.
+/// The head of WGSL's `Pool`: the size of the next dispatch, and the number of suspended rays.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(super) struct PoolHead {
@@ -31,42 +31,45 @@ pub(super) struct PoolHead {
     pub(super) waiting: u32,
 }
 
-/// Rays that can wait at first: enough for most pictures, 3 MB.
-const FIRST_SLOTS: u32 = 1 << 16;
+/// Rays that a pool holds at first: enough for most pictures, 3 MB.
+const FIRST_CAPACITY: u32 = 1 << 16;
 
-/// The pool of waiting rays, and the buffer from which the next dispatch takes its size.
-pub(super) struct WaitingRoom {
+/// The pool of suspended rays, and the buffer from which the next dispatch takes its size.
+pub(super) struct SuspendedPool {
     pool: wgpu::Buffer,
     empty: wgpu::Buffer,
     arguments: wgpu::Buffer,
-    slots: u32,
+    capacity: u32,
 }
 
-impl WaitingRoom {
+impl SuspendedPool {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, RenderError> {
-        Self::with_slots(gpu, FIRST_SLOTS)
+        Self::with_capacity(gpu, FIRST_CAPACITY)
     }
 
-    /// A room for at least so many rays.
-    pub(super) fn with_slots(gpu: &Gpu, slots: u32) -> Result<Self, RenderError> {
-        let nobody = PoolHead { groups: 0, groups_y: 1, groups_z: 1, waiting: 0 };
-        let bytes = size_of::<PoolHead>() as u64 + u64::from(slots) * size_of::<Suspended>() as u64;
+    /// A pool for so many rays.
+    pub(super) fn with_capacity(gpu: &Gpu, capacity: u32) -> Result<Self, RenderError> {
+        let head = PoolHead { groups: 0, groups_y: 1, groups_z: 1, waiting: 0 };
+        let bytes =
+            size_of::<PoolHead>() as u64 + u64::from(capacity) * size_of::<Suspended>() as u64;
         let none = wgpu::BufferUsages::empty();
-        let pool = gpu.storage("fbvh waiting rays", bytes, none)?;
-        let empty = gpu.upload("fbvh empty pool", &[nobody], none)?;
+        let pool = gpu.storage("fbvh suspended rays", bytes, none)?;
+        let empty = gpu.upload("fbvh empty pool", &[head], none)?;
         let arguments = gpu.storage("fbvh dispatch", 12, wgpu::BufferUsages::INDIRECT)?;
-        Ok(Self { pool, empty, arguments, slots })
+        Ok(Self { pool, empty, arguments, capacity })
     }
 
-    pub(super) fn slots(&self) -> u32 {
-        self.slots
+    /// Number of rays.
+    pub(super) fn capacity(&self) -> u32 {
+        self.capacity
     }
 
-    pub(super) fn pool(&self) -> &wgpu::Buffer {
+    /// The pool itself.
+    pub(super) fn buffer(&self) -> &wgpu::Buffer {
         &self.pool
     }
 
-    /// Twelve bytes for an indirect dispatch over the rays that wait.
+    /// Twelve bytes for an indirect dispatch over the suspended rays.
     pub(super) fn arguments(&self) -> &wgpu::Buffer {
         &self.arguments
     }
@@ -75,12 +78,12 @@ impl WaitingRoom {
         self.pool.size() + self.empty.size() + self.arguments.size()
     }
 
-    /// Sends everybody away: at the start of a frame.
+    /// Empties the pool, at the start of a frame.
     pub(super) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.copy_buffer_to_buffer(&self.empty, 0, &self.pool, 0, self.empty.size());
     }
 
-    /// Makes the next indirect dispatches as large as the room is full.
+    /// Sizes the next indirect dispatches by the number of suspended rays.
     pub(super) fn count(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.copy_buffer_to_buffer(&self.pool, 0, &self.arguments, 0, 12);
     }

@@ -1,6 +1,6 @@
 //! Counting what a ray costs.
 
-/// Is told what a tracer does. `()` does not listen and costs nothing.
+/// Receives a call for each step of a trace. `()` counts nothing and costs nothing.
 pub trait Counter {
     /// An interior node was read.
     fn node(&mut self) {}
@@ -8,9 +8,9 @@ pub trait Counter {
     fn leaf_test(&mut self, balls: usize) {
         let _ = balls;
     }
-    /// The field was evaluated at a point.
+    /// The field was evaluated at a point, or bounded on an interval.
     fn evaluation(&mut self) {}
-    /// The secant search made a step.
+    /// A search for a root, the secant's or Newton's, made a step.
     fn iteration(&mut self) {}
 }
 
@@ -25,9 +25,9 @@ pub struct Work {
     pub leaf_tests: u64,
     /// Entries of the lists of those leaves.
     pub balls: u64,
-    /// Evaluations of the field, one for each point.
+    /// Evaluations of the field, one for each point or interval.
     pub evaluations: u64,
-    /// Steps of secant searches.
+    /// Steps of searches for a root.
     pub iterations: u64,
 }
 

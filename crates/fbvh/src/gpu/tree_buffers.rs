@@ -1,31 +1,31 @@
-//! A tree on the graphics card.
+//! A tree in GPU buffers.
 
 use metaball_core::gpu::{Gpu, RenderError};
 
 use super::pipelines::Layouts;
-use super::waiting::WaitingRoom;
+use super::suspended::SuspendedPool;
 use crate::Tree;
 
-/// The longest list of a leaf: about as long as the budget of `fbvh/suspend.wgsl`, so that one walk along it
-/// fits into a dispatch, and none of the eight invocations that software Vulkan runs side by side brings
-/// them near the 65,535 iterations, in all, after which it ends them.
+/// The longest list of a leaf: about as long as the budget of `shaders/wgsl/fbvh/suspend.wgsl`, so that
+/// one walk along it fits into a dispatch, and none of the eight invocations that software Vulkan runs
+/// side by side brings them near the 65,535 iterations, in all, after which it ends them.
 const LONGEST_LIST: u32 = 6_600;
 
-/// The three arrays of a tree, bound together with the room for waiting rays.
-pub(super) struct DeviceTree {
+/// The three arrays of a tree, bound together with the pool of suspended rays.
+pub(super) struct TreeBuffers {
     nodes: wgpu::Buffer,
     leaves: wgpu::Buffer,
     lists: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
 }
 
-impl DeviceTree {
+impl TreeBuffers {
     pub(super) fn new(
         gpu: &Gpu,
         method: &'static str,
         layouts: &Layouts,
         tree: &Tree,
-        waiting: &WaitingRoom,
+        suspended: &SuspendedPool,
     ) -> Result<Self, RenderError> {
         let longest = tree.leaves().windows(2).map(|pair| pair[1].first - pair[0].first).max();
         if let Some(found) = longest.filter(|&longest| longest > LONGEST_LIST) {
@@ -37,13 +37,13 @@ impl DeviceTree {
         let nodes = gpu.upload("fbvh nodes", tree.nodes(), none)?;
         let leaves = gpu.upload("fbvh leaves", tree.leaves(), none)?;
         let lists = gpu.upload("fbvh lists", tree.lists(), none)?;
-        let bind_group = bind(gpu, layouts, [&nodes, &leaves, &lists, waiting.pool()]);
+        let bind_group = bind(gpu, layouts, [&nodes, &leaves, &lists, suspended.buffer()]);
         Ok(Self { nodes, leaves, lists, bind_group })
     }
 
-    /// Binds the tree with another room.
-    pub(super) fn rebind(&mut self, gpu: &Gpu, layouts: &Layouts, waiting: &WaitingRoom) {
-        let buffers = [&self.nodes, &self.leaves, &self.lists, waiting.pool()];
+    /// Binds the tree with another pool.
+    pub(super) fn rebind(&mut self, gpu: &Gpu, layouts: &Layouts, suspended: &SuspendedPool) {
+        let buffers = [&self.nodes, &self.leaves, &self.lists, suspended.buffer()];
         self.bind_group = bind(gpu, layouts, buffers);
     }
 

@@ -1,12 +1,13 @@
-//! A leaf's balls side by side, and what a ray makes of them.
+//! A leaf's balls side by side, and where one ray sees them.
 
 use glam::{DVec3, Vec3};
-use metaball_core::Ray;
+use metaball_core::{Aabb, Ray};
 
-use super::lanes::{Lanes, WIDTH, array_of};
+use super::super::lanes::{Lanes, WIDTH, array_of};
+use super::super::parabolas::{Parabolas, UNIT};
 use crate::Field;
 
-/// Eight balls, seen from the middle of their leaf's box.
+/// Eight balls, relative to the middle of their leaf's box.
 #[derive(Debug, Clone)]
 pub(super) struct Block {
     /// Centres, f64 and rounded.
@@ -17,49 +18,37 @@ pub(super) struct Block {
     inverse_square_f32: Lanes<f32>,
     /// 1/R.
     inverse_radius: Lanes<f32>,
-    /// Strengths; 0 for a ball that is not there.
+    /// Strengths; 0 in a lane without a ball.
     pub(super) strength: Lanes<f32>,
 }
 
-/// Eight balls along a ray: v = 1 − r²/R² = `constant` + `linear`·t − `square`·t².
-#[derive(Debug, Clone)]
-pub(super) struct Part {
-    pub(super) constant: Lanes<f32>,
-    pub(super) linear: Lanes<f32>,
-    pub(super) square: Lanes<f32>,
-    /// How far rounding can move v on the stretch.
-    pub(super) margin: Lanes<f32>,
-    /// The same for dv/dt.
-    pub(super) slope_margin: Lanes<f32>,
-    pub(super) strength: Lanes<f32>,
-}
-
-/// A leaf made ready for rays; kept from leaf to leaf for its memory.
+/// The leaf that has been loaded for a ray; kept from leaf to leaf for its memory.
 #[derive(Debug, Default)]
-pub(super) struct Pack {
+pub(in crate::trace::certified) struct Blocks {
     leaf: Option<usize>,
     middle: DVec3,
     pub(super) blocks: Vec<Block>,
-    pub(super) parts: Vec<Part>,
+    pub(super) parabolas: Vec<Parabolas>,
 }
 
-/// A ray's stretch in a leaf, from a point beside the leaf's middle: t there is `base` more than
-/// here, where it runs from −`half` to `half`.
+/// A ray's interval in a leaf, relative to a nearby origin: t there is `base` more than here, where it
+/// runs from −`half` to `half`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Local {
+pub(super) struct RelativeRay {
+    /// The nearby origin, from the middle of the leaf's box.
     pub(super) origin: DVec3,
     pub(super) direction: DVec3,
     pub(super) base: f64,
     pub(super) half: f32,
 }
 
-impl Pack {
-    /// Takes up the balls of a leaf, unless it holds them already.
-    pub(super) fn take(
+impl Blocks {
+    /// Loads the balls of a leaf, unless it is loaded already.
+    pub(in crate::trace::certified) fn load(
         &mut self,
         field: &impl Field,
         leaf: usize,
-        bounds: &metaball_core::Aabb,
+        bounds: &Aabb,
         list: &[u32],
     ) {
         if self.leaf == Some(leaf) {
@@ -94,15 +83,16 @@ impl Pack {
         }
     }
 
-    /// Moves the ray's origin beside the leaf, in f64, so that distance from the eye costs nothing.
-    pub(super) fn local(&self, ray: &Ray, (start, end): (f64, f64)) -> Local {
-        // Rounded up: the stretch may reach past the leaf's far face by a float, not fall short.
+    /// Moves the ray's origin to the middle of its interval, in f64: the distance of the eye then costs
+    /// no digits.
+    pub(super) fn relative(&self, ray: &Ray, (start, end): (f64, f64)) -> RelativeRay {
+        // Rounded up: the interval may reach past the leaf's far face by a float, not fall short.
         let half = (0.5 * (end - start)) as f32;
         let half = if f64::from(half) < 0.5 * (end - start) { half.next_up() } else { half };
         let base = start + f64::from(half);
         let direction = ray.direction.as_dvec3();
         let origin = (ray.origin.as_dvec3() - self.middle) + base * direction;
-        Local { origin, direction, base, half }
+        RelativeRay { origin, direction, base, half }
     }
 
     /// Projects the balls on the ray.
@@ -111,22 +101,22 @@ impl Pack {
     /// With u = 2⁻²⁴, ρ = |p − o|/R, λ = `half`·|d|/R, ω = |o|/R: the centre and o are rounded once,
     /// which moves p − o by u(2ω + 2ρ)R. Squares, products, 1/R² and sums add to that; in all v is
     /// right to u(3 + 12ρ² + 20ρλ + 7λ² + 4ω(ρ + λ)) ≤ 12u(1 + (ρ + λ + ω)²), of which 16u is
-    /// taken. What f64 rounds on the way from the eye is added to ω. The slope dv/dt is right to
-    /// u(16ρ + 10λ + 4ω)/R, less than a margin over R, since 1 + x² is at least 2x.
+    /// taken. What f64 rounds between the eye and the nearby origin is added to ω. The slope dv/dt is
+    /// right to u(16ρ + 10λ + 4ω)/R, less than a margin over R, since 1 + x² is at least 2x.
     #[inline(always)]
-    pub(super) fn project(&mut self, ray: &Ray, local: &Local) {
+    pub(super) fn project(&mut self, ray: &Ray, relative: &RelativeRay) {
         const MARGIN: f32 = 16.0 * UNIT;
-        let origin = local.origin.as_vec3();
+        let origin = relative.origin.as_vec3();
         let direction = ray.direction;
-        let square = local.direction.length_squared();
-        let far = ray.origin.as_dvec3().length() + self.middle.length() + local.base.abs();
-        let reach = local.origin.length()
-            + f64::from(local.half) * square.sqrt()
+        let square = relative.direction.length_squared();
+        let far = ray.origin.as_dvec3().length() + self.middle.length() + relative.base.abs();
+        let reach = relative.origin.length()
+            + f64::from(relative.half) * square.sqrt()
             + far * (4.0 * f64::EPSILON / f64::from(UNIT));
         let reach = (reach * 1.000_001) as f32;
         let square = square as f32;
-        self.parts.clear();
-        self.parts.extend(self.blocks.iter().map(|block| {
+        self.parabolas.clear();
+        self.parabolas.extend(self.blocks.iter().map(|block| {
             let offset = |axis: usize| block.center[axis] - Lanes::splat(origin[axis]);
             let (x, y, z) = (offset(0), offset(1), offset(2));
             let Vec3 { x: dx, y: dy, z: dz } = direction;
@@ -134,7 +124,7 @@ impl Pack {
             let distance = (x * x + y * y + z * z) * block.inverse_square_f32;
             let reaches = distance.sqrt() + block.inverse_radius * reach;
             let margin = (reaches * reaches).map(|x| MARGIN * (1.0 + x));
-            Part {
+            Parabolas {
                 constant: distance.map(|x| 1.0 - x),
                 linear: along * block.inverse_square_f32 * 2.0,
                 square: block.inverse_square_f32 * square,
@@ -145,6 +135,3 @@ impl Pack {
         }));
     }
 }
-
-/// u: half a unit in the last place of 1.
-pub(super) const UNIT: f32 = f32::EPSILON / 2.0;

@@ -5,8 +5,8 @@
 use std::iter;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Mul, Not, Sub};
 
-/// How many numbers.
-pub(super) const WIDTH: usize = 8;
+/// How many numbers, and how many rays make a packet.
+pub(in crate::trace) const WIDTH: usize = 8;
 
 /// The numbers.
 #[derive(Debug, Clone, Copy)]
@@ -23,13 +23,13 @@ pub(super) fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// As [`std::array::from_fn`], which may leave the function to be compiled by itself, without the vectors
-/// of where it is called.
+/// As [`std::array::from_fn`], which may compile the function by itself, without the vector instructions
+/// of its caller.
 #[inline(always)]
 pub(super) fn array_of<T: Copy, const N: usize>(entry: impl Fn(usize) -> T) -> [T; N] {
     let mut entries = [entry(0); N];
-    for (k, place) in entries.iter_mut().enumerate().skip(1) {
-        *place = entry(k);
+    for (k, slot) in entries.iter_mut().enumerate().skip(1) {
+        *slot = entry(k);
     }
     entries
 }
@@ -72,13 +72,13 @@ impl<T: Copy> Lanes<T> {
 }
 
 impl<T: Copy + PartialOrd> Lanes<T> {
-    /// The greater one; the other where this is not a number.
+    /// The greater one; the other where this is NaN.
     #[inline(always)]
     pub(super) fn max(self, other: Self) -> Self {
         self.zip(other, |a, b| if a > b { a } else { b })
     }
 
-    /// The lesser one; the other where this is not a number.
+    /// The lesser one; the other where this is NaN.
     #[inline(always)]
     pub(super) fn min(self, other: Self) -> Self {
         self.zip(other, |a, b| if a < b { a } else { b })
@@ -101,7 +101,7 @@ impl Lanes<f32> {
     }
 }
 
-/// What holds in which lanes: all bits of a lane, or none.
+/// Which lanes satisfy a condition: all bits of a lane, or none.
 pub(super) type Mask = Lanes<u32>;
 
 impl Mask {
@@ -115,20 +115,20 @@ impl Mask {
 
     /// Lane i in bit i.
     ///
-    /// Each lane adds 3·2ⁱ. Of 2ⁱ the compiler would make a flag of lane 0 and shift it, which takes all that
-    /// leads here apart into four lanes, two and single ones.
+    /// Each lane adds 3·2ⁱ. For 2ⁱ the compiler would extract a flag from lane 0 and shift it, which splits
+    /// all computations that lead here into four lanes, two and single ones.
     #[inline(always)]
     pub(super) fn bits(self) -> u32 {
         (0..WIDTH).fold(0, |bits, lane| bits + (self.0[lane] & 3 << lane)) / 3
     }
 
-    /// Whether it holds in any lane.
+    /// Whether any lane satisfies it.
     #[inline(always)]
     pub(super) fn any(self) -> bool {
         self.0.iter().fold(0, |bits, &lane| bits | lane) != 0
     }
 
-    /// The one where it holds, the other elsewhere.
+    /// The first number in lanes that satisfy it, the second elsewhere.
     #[inline(always)]
     pub(super) fn select(self, yes: Lanes<f32>, no: Lanes<f32>) -> Lanes<f32> {
         let chosen = yes.zip(no, |yes, no| (yes, no));
@@ -137,13 +137,13 @@ impl Mask {
 }
 
 impl<T: Copy + PartialOrd> Lanes<T> {
-    /// Where this is less; nowhere where either is not a number.
+    /// The lanes where this is less: none where either is NaN.
     #[inline(always)]
     pub(super) fn is_less(self, other: Self) -> Mask {
         self.zip(other, |a, b| if a < b { u32::MAX } else { 0 })
     }
 
-    /// Where this is at most the other; nowhere where either is not a number.
+    /// The lanes where this is at most the other: none where either is NaN.
     #[inline(always)]
     pub(super) fn is_at_most(self, other: Self) -> Mask {
         self.zip(other, |a, b| if a <= b { u32::MAX } else { 0 })

@@ -1,0 +1,231 @@
+//! The search for an entry in one leaf on eight rays at a time, in f32: what
+//! `trace/certified/polynomial.rs` does for one ray and eight balls, ball by ball with the rays side by
+//! side.
+//!
+//! Each lane has an interval of its own and the margins of its own ray, and depends on no other. What
+//! differs is what saves passes over the balls:
+//! - A ball that reaches no ray's interval is left out, and where the greatest values that the balls
+//!   have on an interval do not sum up to T, nothing crosses.
+//! - Where a ball reaches T alone, the first interval ends just before its projection.
+//! - An interval holds one crossing also where the field is below T at its start and above at its
+//!   end, and no ball that reaches it decreases on it: the field rises there, whatever rims there are.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::super::bernstein::value_and_rise;
+use super::super::kernel::{ByDegree, by_degree, is_polynomial, value};
+use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
+use super::super::parabolas::{Parabolas, UNIT};
+use super::super::polynomial::MOST_INTERVALS;
+use super::super::query::{Answer, Crossing, Query};
+use super::balls::{Balls, RelativePacket};
+use super::enclosure::Enclosure;
+use super::rays::{ExactPacket, Packet};
+use super::root::{Isolated, approach, refine};
+
+/// Whether packets can be searched for it: for an entry, by polynomials.
+pub(super) fn is_searched_in_packets(query: &Query) -> bool {
+    query.crossing == Crossing::Entry && is_polynomial(query.kernel)
+}
+
+/// Searches a leaf that has been loaded, over the intervals of some of the packet's rays.
+pub(super) fn search(
+    query: &Query,
+    arch: Arch,
+    balls: &mut Balls,
+    (packet, exact): (&Packet, &ExactPacket),
+    interval: (Lanes<f64>, Lanes<f64>),
+    lanes: u32,
+) -> [Answer; WIDTH] {
+    let mut answers = [Answer::Undecided; WIDTH];
+    let results = &mut answers;
+    by_degree(query.kernel, Search { query, arch, balls, packet, exact, interval, lanes, results });
+    answers
+}
+
+struct Search<'a> {
+    query: &'a Query,
+    arch: Arch,
+    balls: &'a mut Balls,
+    packet: &'a Packet,
+    exact: &'a ExactPacket,
+    interval: (Lanes<f64>, Lanes<f64>),
+    lanes: u32,
+    results: &'a mut [Answer; WIDTH],
+}
+
+impl ByDegree for Search<'_> {
+    type Output = ();
+
+    fn run<const N: usize>(self) {
+        self.arch.dispatch(SearchOfDegree::<N>(self));
+    }
+}
+
+/// The search, as `pulp` compiles it for wider vectors.
+struct SearchOfDegree<'a, const N: usize>(Search<'a>);
+
+impl<const N: usize> WithSimd for SearchOfDegree<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self(mut search) = self;
+        let Search { packet, exact, interval, lanes, .. } = search;
+        let relative = search.balls.relative(packet, exact, interval, lanes);
+        let projected = search.project::<N>(&relative);
+        if !projected.open.any() {
+            return;
+        }
+        let isolated = search.isolate::<N>(&relative, projected);
+        if isolated.found.any() {
+            let Search { query, balls, results, .. } = search;
+            let guess = approach::<N>(query, balls, &isolated);
+            let rays = (packet, &relative);
+            refine::<N>(query, balls, rays, &isolated, guess, interval, results);
+        }
+    }
+}
+
+/// What the balls' projections show.
+struct Projected {
+    /// Where the field may reach T; the other lanes are answered.
+    open: Mask,
+    /// Where the first interval is best ended.
+    end: Lanes<f32>,
+}
+
+impl Search<'_> {
+    /// Projects the balls on the rays and keeps those that reach an interval.
+    ///
+    /// # Rounding
+    /// As for a single ray (`project` of `trace/certified/polynomial/blocks.rs`): ρ + λ + ω is at most
+    /// the distance of the ball's centre from the leaf's middle plus `reach`, in radii. The projection,
+    /// where v is largest, is misplaced by a few u(ρ + λ + ω)R, which changes v by the square of that.
+    #[inline(always)]
+    fn project<const N: usize>(&mut self, relative: &RelativePacket) -> Projected {
+        const MARGIN: f32 = 16.0 * UNIT;
+        let packet = self.packet;
+        let zero = Lanes::splat(0.0f32);
+        let origin: [_; 3] = array_of(|axis| relative.origin[axis].map(|x| x as f32));
+        let square = self.exact.square.map(|square| square as f32);
+        let inverse_square_length = square.map(f32::recip);
+        let back = zero - relative.half;
+        let [dx, dy, dz] = packet.direction;
+        let threshold = Lanes::splat(self.query.threshold as f32);
+        let (mut upper_bound, mut end) = (zero, relative.half);
+        self.balls.cull(packet, relative, self.lanes.trailing_zeros() as usize);
+        let Balls { balls, kept, parabolas, .. } = &mut *self.balls;
+        parabolas.clear();
+        let mut count = 0;
+        for candidate in 0..kept.len() {
+            let at = kept[candidate];
+            let ball = &balls[at as usize];
+            let [x, y, z] = array_of(|axis| Lanes::splat(ball.center[axis]) - origin[axis]);
+            let along = x * dx + y * dy + z * dz;
+            let distance = (x * x + y * y + z * z) * ball.inverse_square_f32;
+            let reaches = (relative.reach * ball.inverse_radius).map(|reach| ball.distance + reach);
+            let margin = (reaches * reaches).map(|x| MARGIN * (1.0 + x));
+            let parabola = Parabolas {
+                constant: distance.map(|x| 1.0 - x),
+                linear: along * (2.0 * ball.inverse_square_f32),
+                square: square * ball.inverse_square_f32,
+                margin,
+                slope_margin: margin * ball.inverse_radius,
+                strength: Lanes::splat(ball.strength),
+            };
+            let t = (along * inverse_square_length).min(relative.half).max(back);
+            let top = parabola.constant + (parabola.linear - parabola.square * t) * t + margin;
+            if !(!top.is_at_most(zero)).any() {
+                continue;
+            }
+            // NaN stays NaN.
+            let most = value::<N>(self.query.kernel, zero.max(top)) * ball.strength;
+            upper_bound += most;
+            // Slope margins before the projection it certainly rises still.
+            let before = t - margin * ball.radius;
+            end = threshold.is_less(most).select(before.min(end), end);
+            kept[count] = at;
+            count += 1;
+            parabolas.push(parabola);
+        }
+        kept.truncate(count);
+        let rounding = (self.balls.parabolas.len() + 34) as f32 * UNIT;
+        let is_below = (upper_bound * (1.0 + rounding)).is_less(threshold);
+        let lanes = Mask::from_bits(self.lanes);
+        self.answer(is_below & lanes, Answer::Nothing);
+        let end = back.is_less(end).select(end, relative.half);
+        Projected { open: lanes & !is_below, end }
+    }
+
+    #[inline(always)]
+    fn answer(&mut self, lanes: Mask, answer: Answer) {
+        for lane in lanes_of(lanes.bits()) {
+            self.results[lane] = answer;
+        }
+    }
+
+    /// Front to back, each lane on its own: nothing crosses before `start`. Lanes that cannot decide
+    /// stay without an answer.
+    #[inline(always)]
+    fn isolate<const N: usize>(
+        &mut self,
+        relative: &RelativePacket,
+        projected: Projected,
+    ) -> Isolated {
+        let zero = Lanes::splat(0.0f32);
+        let last = relative.half;
+        let (mut start, Projected { mut open, mut end }) = (zero - last, projected);
+        let mut isolated = Isolated { found: Mask::NONE, start: zero, end: zero, guess: zero };
+        // A step this long exceeds the rounding of a sum.
+        let step = last * (4.0 * UNIT);
+        for _ in 0..MOST_INTERVALS {
+            let bounds = Enclosure::<N>::new(self.query, &self.balls.parabolas, start, end);
+            // Not where a ray starts inside, nor where rounding is as large as T.
+            open = open & bounds.is_known & bounds.upper[0].is_less(zero);
+            if self.query.any {
+                let inside = zero.is_less(bounds.ends[0]) | zero.is_less(bounds.ends[1]);
+                self.answer(open & inside, Answer::Somewhere);
+                open = open & !inside;
+            }
+            let is_below = bounds.upper.iter().fold(open, |below, c| below & c.is_less(zero));
+            let is_last = last.is_at_most(end);
+            self.answer(is_below & is_last, Answer::Nothing);
+            let rises = bounds.increases & zero.is_less(bounds.ends[1]);
+            let once = open & (rises | bounds.is_exact & bounds.changes_sign_once());
+            if once.any() {
+                isolated.found = isolated.found | once;
+                isolated.start = once.select(start, isolated.start);
+                isolated.end = once.select(end, isolated.end);
+                let guess = start + (end - start) * bounds.polygon_crossing();
+                isolated.guess = once.select(guess, isolated.guess);
+            }
+            open = open & !once & !(is_below & is_last);
+            if !open.any() {
+                break;
+            }
+            let width = end - start;
+            // No crossing before `clear`; nor a little short of it, where the field is clear of T.
+            let clear = bounds.negative_until();
+            let mut until = clear.map(|clear| {
+                if clear * (15.0 / 16.0) > 0.25 { 1.0 } else { 0.5 + 0.5 * clear * (15.0 / 16.0) }
+            });
+            let may_be_above =
+                bounds.lower.iter().fold(Mask::NONE, |may, &c| may | zero.is_less(c));
+            if (open & may_be_above).any() {
+                for part in [0.5, 1.0 / 8.0, 1.0 / 32.0] {
+                    let x = clear + (Lanes::splat(1.0) - clear) * part;
+                    let is_above = zero.is_less(value_and_rise(bounds.lower, x).0);
+                    until = is_above.select(x, until);
+                }
+            }
+            let ahead = start + (width * clear * (15.0 / 16.0) - step).max(zero);
+            let beyond = (start + width * until + step).min(end);
+            let far = (end + width * 2.0).min(last);
+            start = is_below.select(end, ahead);
+            end = is_below.select(far, beyond);
+            open = open & start.is_less(end);
+        }
+        isolated
+    }
+}

@@ -1,0 +1,125 @@
+//! The search for a crossing in one leaf on one ray, in f32, eight balls at a time, by Bernstein
+//! coefficients: for kernels that are polynomials of v. What it cannot decide is left to
+//! `trace/certified/ranges.rs`.
+
+mod blocks;
+mod enclosure;
+mod root;
+
+use metaball_core::Ray;
+use pulp::{Arch, Simd, WithSimd};
+
+pub(super) use self::blocks::Blocks;
+use self::blocks::RelativeRay;
+use self::enclosure::Enclosure;
+use super::bernstein::{negative_until, only_root, value_and_slope};
+use super::kernel::{ByDegree, by_degree};
+use super::query::{Answer, Query};
+use crate::trace::counter::Counter;
+
+/// Intervals examined before the search gives up: two are typical.
+pub(super) const MOST_INTERVALS: usize = 24;
+
+/// Searches a leaf that has been loaded, over the ray's interval in it.
+pub(super) fn search(
+    query: &Query,
+    arch: Arch,
+    blocks: &mut Blocks,
+    (ray, interval): (&Ray, (f64, f64)),
+    counter: &mut impl Counter,
+) -> Answer {
+    let search = Search { query, arch, blocks, ray, interval, counter };
+    by_degree(query.kernel, search).unwrap_or(Answer::Undecided)
+}
+
+struct Search<'a, C> {
+    query: &'a Query,
+    arch: Arch,
+    blocks: &'a mut Blocks,
+    ray: &'a Ray,
+    interval: (f64, f64),
+    counter: &'a mut C,
+}
+
+impl<C: Counter> ByDegree for Search<'_, C> {
+    type Output = Answer;
+
+    fn run<const N: usize>(self) -> Answer {
+        self.arch.dispatch(SearchOfDegree::<N, _>(self))
+    }
+}
+
+/// The search, as `pulp` compiles it for wider vectors.
+struct SearchOfDegree<'a, const N: usize, C>(Search<'a, C>);
+
+impl<const N: usize, C: Counter> WithSimd for SearchOfDegree<'_, N, C> {
+    type Output = Answer;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Answer {
+        let Self(Search { query, blocks, ray, interval, counter, .. }) = self;
+        let relative = blocks.relative(ray, interval);
+        blocks.project(ray, &relative);
+        search_of_degree::<N>(query, blocks, &relative, interval, counter)
+    }
+}
+
+/// Front to back: nothing crosses before `start`.
+#[inline(always)]
+fn search_of_degree<const N: usize>(
+    query: &Query,
+    blocks: &Blocks,
+    ray: &RelativeRay,
+    interval: (f64, f64),
+    counter: &mut impl Counter,
+) -> Answer {
+    let last = ray.half;
+    let (mut start, mut end) = (-last, last);
+    for count in 0..MOST_INTERVALS {
+        counter.evaluation();
+        let Some(bounds) = Enclosure::<N>::new(query, &blocks.parabolas, start, end) else {
+            return Answer::Undecided;
+        };
+        if count == 0 && interval.0 <= 0.0 && bounds.upper[0] >= 0.0 {
+            let is_beyond = bounds.ends[0] > 0.0;
+            return if is_beyond { Answer::StartsBeyond } else { Answer::Undecided };
+        }
+        if query.any && (bounds.ends[0] > 0.0 || bounds.ends[1] > 0.0) {
+            return Answer::Somewhere;
+        }
+        if bounds.upper.iter().all(|&most| most < 0.0) {
+            if end >= last {
+                return Answer::Nothing;
+            }
+            (start, end) = (end, (end + 2.0 * (end - start)).min(last));
+            continue;
+        }
+        if bounds.upper[0] >= 0.0 {
+            return Answer::Undecided;
+        }
+        let width = f64::from(end) - f64::from(start);
+        if bounds.is_exact && bounds.changes_sign_once() {
+            let x = only_root(&bounds.middle());
+            let guess = f64::from(start) + x * width;
+            return root::refine::<N>(query, blocks, ray, guess, (start, end), interval, counter);
+        }
+        // No crossing before `clear`; nor a little short of it, where the field is clear of T.
+        let clear = negative_until(bounds.upper).unwrap_or(1.0);
+        let beyond = [1.0 / 32.0, 1.0 / 8.0, 0.5]
+            .map(|part| clear + part * (1.0 - clear))
+            .into_iter()
+            .find(|&x| value_and_slope(bounds.lower, x).0 > 0.0);
+        if query.any && beyond.is_some() {
+            return Answer::Somewhere;
+        }
+        let clear = clear * (15.0 / 16.0);
+        let until = beyond.unwrap_or(if clear > 0.25 { 1.0 } else { 0.5 + 0.5 * clear });
+        let next = ((f64::from(start) + clear * width) as f32).max(start);
+        end = ((f64::from(start) + until * width) as f32).next_up().min(end);
+        start = next;
+        if start >= end {
+            return Answer::Undecided;
+        }
+    }
+    Answer::Undecided
+}

@@ -1,0 +1,221 @@
+//! One ray through the certified tree.
+
+use glam::{DVec3, Vec3};
+use metaball_core::{Aabb, Hit, Ray, Verdict};
+use pulp::Arch;
+
+use super::polynomial::{self, Blocks};
+use super::query::{Answer, Crossing, Query};
+use super::ranges::{Chords, Found, RangeSearch, UNIT};
+use crate::Field;
+use crate::trace::counter::Counter;
+use crate::trace::field_tree::FieldTree;
+
+/// What searches of leaves share, for its memory.
+pub(in crate::trace) struct Scratch {
+    pub(super) arch: Arch,
+    blocks: Blocks,
+    chords: Chords,
+}
+
+impl Scratch {
+    pub(in crate::trace) fn new() -> Self {
+        Self { arch: Arch::new(), blocks: Blocks::default(), chords: Chords::default() }
+    }
+}
+
+/// A ray and what the leaves so far have left open.
+pub(super) struct RayState<'a> {
+    ray: &'a Ray,
+    origin: DVec3,
+    inverse: DVec3,
+    /// Whether the field comes so close to T at the ray's end that it may have crossed it.
+    pub(super) uncertain: bool,
+    /// For an exit: where it is if no leaf begins there.
+    exit_face: Option<ExitFace>,
+}
+
+/// The far face of a leaf at which the field comes as close to T as rounding lets one decide. Outside all
+/// leaves it is below T, so the exit is there, unless another leaf begins there. For an entry there is
+/// nothing to note: a field that rises to a face with no leaf behind it is below T before the face, too.
+struct ExitFace {
+    leaf: usize,
+    t: f64,
+}
+
+impl<'a> RayState<'a> {
+    pub(super) fn new(ray: &'a Ray) -> Self {
+        let inverse = ray.direction.as_dvec3().recip();
+        Self { ray, origin: ray.origin.as_dvec3(), inverse, uncertain: false, exit_face: None }
+    }
+
+    /// The ray's interval in a box, widened by rounding; `None` where it misses it. A ray in the plane
+    /// of a face is in the box, as for [`Slabs`](crate::trace::slabs::Slabs).
+    pub(super) fn interval(&self, bounds: &Aabb) -> Option<(f64, f64)> {
+        let (mut start, mut end) = (0.0, f64::from(self.ray.t_max));
+        let to_min = (bounds.min.as_dvec3() - self.origin) * self.inverse;
+        let to_max = (bounds.max.as_dvec3() - self.origin) * self.inverse;
+        for axis in 0..3 {
+            let is_negative = self.inverse[axis].is_sign_negative();
+            let (near, far) = if is_negative {
+                (to_max[axis], to_min[axis])
+            } else {
+                (to_min[axis], to_max[axis])
+            };
+            let (near, far) = (near - 6.0 * UNIT * near.abs(), far + 6.0 * UNIT * far.abs());
+            start = if near > start { near } else { start };
+            end = if far < end { far } else { end };
+        }
+        (start <= end).then_some((start, end))
+    }
+
+    /// The answer for a ray that met no crossing, nor an exit at a face.
+    fn end(&self) -> Hit {
+        if self.uncertain { Hit { verdict: Verdict::Undecided, ..Hit::MISS } } else { Hit::MISS }
+    }
+}
+
+impl<F: Field> FieldTree<'_, F> {
+    /// The first crossing along a ray, or the certainty that there is none, or neither. For a query
+    /// that any crossing will do for, only the verdict is right.
+    pub(in crate::trace) fn first_crossing(
+        &self,
+        query: &Query,
+        ray: &Ray,
+        scratch: &mut Scratch,
+        counter: &mut impl Counter,
+    ) -> Hit {
+        let mut state = RayState::new(ray);
+        let hit = self.tree.first_in_order(ray, counter, |leaf, _, counter| {
+            self.search_leaf(query, leaf, &mut state, scratch, counter)
+        });
+        hit.or_else(|| self.exit_at_face(&state)).unwrap_or_else(|| state.end())
+    }
+
+    /// [`FieldTree::first_crossing`] for an exit. Outside all leaves the field is T or below: a ray that
+    /// starts there has its exit at t = 0.
+    pub(in crate::trace) fn first_exit(
+        &self,
+        query: &Query,
+        ray: &Ray,
+        scratch: &mut Scratch,
+    ) -> Hit {
+        if self.tree.leaf_around(ray.origin, |_| true).is_none() {
+            let normal = ray.direction;
+            return Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal };
+        }
+        self.first_crossing(query, ray, scratch, &mut ())
+    }
+
+    /// [`FieldTree::first_crossing`] in a subtree whose box the ray meets; `None` when the ray continues.
+    pub(super) fn first_crossing_below(
+        &self,
+        reference: u32,
+        query: &Query,
+        state: &mut RayState<'_>,
+        scratch: &mut Scratch,
+        counter: &mut impl Counter,
+    ) -> Option<Hit> {
+        self.tree.first_below(reference, state.ray, counter, |leaf, _, counter| {
+            self.search_leaf(query, leaf, state, scratch, counter)
+        })
+    }
+
+    /// Searches a leaf; `None` when the ray continues.
+    pub(super) fn search_leaf(
+        &self,
+        query: &Query,
+        leaf: usize,
+        state: &mut RayState<'_>,
+        scratch: &mut Scratch,
+        counter: &mut impl Counter,
+    ) -> Option<Hit> {
+        let ray = state.ray;
+        let bounds = self.tree.leaves[leaf].bounds();
+        let interval = state.interval(&bounds)?;
+        // A leaf that begins before the exit face of another and continues behind it decides there.
+        if let Some(face) = &state.exit_face {
+            if interval.0 > face.t {
+                return self.exit_at_face(state);
+            }
+            if interval.1 > face.t {
+                state.exit_face = None;
+            }
+        }
+        let list = self.tree.list(leaf);
+        counter.leaf_test(list.len());
+        // A leaf without a list is solid, to farther past its faces than rounding reaches.
+        if list.is_empty() {
+            if query.crossing == Crossing::Exit {
+                return None;
+            }
+            let t = interval.0 as f32;
+            let verdict = if t > 0.0 { Verdict::Hit } else { Verdict::Inside };
+            return Some(self.hit_at(verdict, leaf, ray, t));
+        }
+        let Scratch { arch, blocks, .. } = scratch;
+        blocks.load(self.field, leaf, &bounds, list);
+        match polynomial::search(query, *arch, blocks, (ray, interval), counter) {
+            Answer::Undecided => self.search_ranges(query, leaf, interval, state, scratch, counter),
+            answer => self.hit_of(answer, leaf, ray),
+        }
+    }
+
+    /// The hit that an answer makes; `None` when the ray continues.
+    #[inline]
+    pub(super) fn hit_of(&self, answer: Answer, leaf: usize, ray: &Ray) -> Option<Hit> {
+        match answer {
+            Answer::Nothing | Answer::Undecided => None,
+            Answer::Root(t, gradient) => Some(Hit {
+                verdict: Verdict::Hit,
+                fallback: false,
+                t: t as f32,
+                normal: outward(gradient, ray),
+            }),
+            Answer::Somewhere => Some(Hit { verdict: Verdict::Hit, ..Hit::MISS }),
+            Answer::StartsBeyond => Some(self.hit_at(Verdict::Inside, leaf, ray, 0.0)),
+        }
+    }
+
+    fn search_ranges(
+        &self,
+        query: &Query,
+        leaf: usize,
+        interval: (f64, f64),
+        state: &mut RayState<'_>,
+        scratch: &mut Scratch,
+        counter: &mut impl Counter,
+    ) -> Option<Hit> {
+        let ray = state.ray;
+        let chords = &mut scratch.chords;
+        chords.gather(self.field, self.tree.list(leaf), ray, interval);
+        let (verdict, t) = match (RangeSearch { chords, query }).first_root(interval, counter) {
+            Found::Nothing => return None,
+            Found::UncertainEnd => {
+                state.uncertain = interval.1 >= f64::from(ray.t_max);
+                if query.crossing == Crossing::Exit && !state.uncertain {
+                    state.exit_face = Some(ExitFace { leaf, t: interval.1 });
+                }
+                return None;
+            }
+            Found::StartsBeyond => (Verdict::Inside, 0.0),
+            Found::Root(t) => (Verdict::Hit, t as f32),
+            Found::Undecided(t) => (Verdict::Undecided, t as f32),
+        };
+        Some(self.hit_at(verdict, leaf, ray, t))
+    }
+
+    /// The exit at a face, if there is one.
+    fn exit_at_face(&self, state: &RayState<'_>) -> Option<Hit> {
+        let face = state.exit_face.as_ref()?;
+        Some(self.hit_at(Verdict::Hit, face.leaf, state.ray, face.t as f32))
+    }
+}
+
+/// The unit vector out of the surface; against the ray where the gradient is zero.
+fn outward(gradient: DVec3, ray: &Ray) -> Vec3 {
+    // Scaled first: the squares of tiny components would be lost.
+    let scaled = gradient / -gradient.abs().max_element();
+    let normal = scaled.try_normalize().map(DVec3::as_vec3);
+    normal.unwrap_or_else(|| (-ray.direction).normalize_or_zero())
+}

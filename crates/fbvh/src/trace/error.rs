@@ -1,0 +1,24 @@
+//! What a kind of tree cannot do.
+
+use thiserror::Error;
+
+use crate::Kind;
+
+/// A [`Tracer`](crate::Tracer) was asked for what its kind of tree does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TraceError {
+    /// Exits of a published tree: the paper's leaf test is for rays that start outside.
+    #[error("exits: needed a certified tree, found {found:?}")]
+    ExitOfPublished {
+        /// The tree's kind.
+        found: Kind,
+    },
+    /// A secant search in a certified tree: its leaves are searched by bounds, to the last float, and
+    /// have neither a tolerance nor a reading.
+    #[error("a secant search: needed a published tree, found {found:?}")]
+    SecantOfCertified {
+        /// The tree's kind.
+        found: Kind,
+    },
+}
