@@ -13,8 +13,8 @@ const HELP: &str = "\
 cargo xtask test                 formatting, lints, all tests, packages and documentation
 cargo xtask setup                makes sure that a Vulkan adapter exists, and does nothing else
 cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` in release mode:
-                                 compare, chart, stability, certify, render, animate, tables,
-                                 scenes, methods; `help` lists them
+                                 compare, score, diff, chart, stability, certify, render,
+                                 animate, tables, scenes, methods; `help` lists them
 
 Both set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the
 rights to do so, they install Mesa's software one.
@@ -33,8 +33,8 @@ fn main() -> ExitCode {
             run::say(HELP);
             run::metaball(&["--help".to_owned()])
         }
-        // Listings need no adapter.
-        Some("scenes" | "methods") => run::metaball(&arguments),
+        // These need no adapter.
+        Some("scenes" | "methods" | "score" | "diff") => run::metaball(&arguments),
         Some(_) => adapter::ensure().and_then(|_| run::metaball(&arguments)),
     };
     match outcome {

@@ -30,6 +30,7 @@ use harness::measure::Sampling;
 use harness::numbers::decimal;
 use harness::output::write_json;
 use harness::record::{Adapter, Record, Status};
+use harness::record_csv::write_csv;
 use picture_files::write_atomically;
 
 /// Name and version of the format of `chart.json`.
@@ -131,6 +132,8 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
     chart.complete = true;
     chart.moved = before.map(|before| Moved::between(&before, &chart));
     chart.write(&path)?;
+    let records = chart.groups.iter().flat_map(|group| &group.records);
+    write_csv(&order.out.join("chart.csv"), records)?;
     let page = order.out.join("chart.html");
     write_atomically(&page, page::page(&chart).as_bytes())?;
 
@@ -202,6 +205,7 @@ impl Chart {
             sampling: FRAMES,
             along_path: false,
             every_pixel: false,
+            imported: Vec::new(),
             counts_work: false,
         };
         let options: Vec<_> = plan.iter().map(options).collect();
@@ -339,6 +343,7 @@ fn skipped(
         status: Status::Skipped,
         reason: Some(reason.to_owned()),
         measured: None,
+        scored: None,
     }
 }
 
@@ -416,6 +421,7 @@ mod tests {
             sampling: FRAMES,
             along_path: false,
             every_pixel: false,
+            imported: Vec::new(),
             counts_work: false,
         };
         let record = skipped(&gpu, &bench, &options, &easy.configurations[0], "not run: too slow");

@@ -13,6 +13,7 @@ use harness::comparison::{self, SceneComparison, compare_scene, steps};
 use harness::machine::Provenance;
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Record, Records, SCHEMA, Status};
+use harness::record_csv::write_csv;
 
 /// The telling few: the real molecule first, then the smallest case with a blend, a sparse and a
 /// layered crowd, and a real fluid.
@@ -71,7 +72,8 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
         provenance: Provenance::here(SCHEMA),
         records: scenes.iter().flat_map(|scene| scene.records.clone()).collect(),
     };
-    let worked = records.records.iter().any(|record| record.status == Status::Ok);
+    let worked =
+        records.records.iter().any(|record| matches!(record.status, Status::Ok | Status::Scored));
     if worked {
         console::line(&results(&records.records));
         let by_scene: Vec<_> = scenes.iter().map(|scene| scene.records.as_slice()).collect();
@@ -84,6 +86,7 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
     }
     let page = options.out.join("index.html");
     records.write(&options.out.join("records.json"))?;
+    write_csv(&options.out.join("records.csv"), &records.records)?;
     write_report(&page, &records, &scenes, &remarks)?;
     console::line(&format!("\n{}", page.display()));
     anyhow::ensure!(worked, "nothing could be compared; the reasons stand above");
@@ -91,7 +94,7 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
 }
 
 /// The table of all records that have a result.
-fn results(records: &[Record]) -> String {
+pub(crate) fn results(records: &[Record]) -> String {
     let headings = [
         "scene",
         "balls",
@@ -108,23 +111,24 @@ fn results(records: &[Record]) -> String {
         "balls/ray",
     ];
     let row = |record: &Record| {
-        let measured = record.measured.as_ref()?;
-        let accuracy = &measured.accuracy;
+        let accuracy = record.accuracy()?;
+        let measured = record.measured.as_ref();
+        let work = measured.and_then(|measured| measured.work);
         let dash = || "–".to_owned();
         Some(vec![
             record.scene.clone(),
             grouped(record.balls),
             record.method.clone(),
-            decimal(measured.frame_ms.median),
-            decimal(measured.build_ms),
+            measured.map_or_else(dash, |measured| decimal(measured.frame_ms.median)),
+            measured.map_or_else(dash, |measured| decimal(measured.build_ms)),
             accuracy.false_negative.to_string(),
             accuracy.false_positive.to_string(),
             accuracy.wrong_front.to_string(),
             accuracy.ambiguous.to_string(),
             accuracy.rel_rms_t.map_or_else(dash, small),
             accuracy.t_error_over_radius.map_or_else(dash, |error| small(error.p99)),
-            measured.work.map_or_else(dash, |work| decimal(work.nodes_per_ray)),
-            measured.work.map_or_else(dash, |work| decimal(work.balls_per_ray)),
+            work.map_or_else(dash, |work| decimal(work.nodes_per_ray)),
+            work.map_or_else(dash, |work| decimal(work.balls_per_ray)),
         ])
     };
     table(&headings, &records.iter().filter_map(row).collect::<Vec<_>>())

@@ -10,11 +10,13 @@ pub mod chart;
 pub mod compare;
 pub mod conclusions;
 pub mod console;
+pub mod diff;
 #[cfg(test)]
 mod examples;
 pub mod html;
 mod page;
 pub mod plot;
 pub mod report;
+pub mod score;
 pub mod stability;
 pub mod tables;

@@ -11,6 +11,7 @@ use harness::heat::{AMBIGUOUS, ERROR_RANGE, MISS, NOT_COMPARED, SCALE, UNDECIDED
 use harness::methods;
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Measured, Record, Records};
+use harness::score::Accuracy;
 use picture_files::write_atomically;
 
 /// Writes the page about scenes and their records.
@@ -66,6 +67,7 @@ fn table_rows(scene: &SceneComparison) -> String {
         );
         match &record.measured {
             Some(measured) => rows.push_str(&measured_cells(measured)),
+            None if record.scored.is_some() => rows.push_str(&scored_cells(record)),
             None => {
                 let reason = record.reason.as_deref().unwrap_or("no result");
                 let _ = write!(
@@ -82,17 +84,31 @@ fn table_rows(scene: &SceneComparison) -> String {
 }
 
 fn measured_cells(measured: &Measured) -> String {
-    let accuracy = &measured.accuracy;
     let frame = &measured.frame_ms;
-    let wrong = format!(
-        "{} / {} / {}",
-        accuracy.false_negative, accuracy.false_positive, accuracy.wrong_front
-    );
-    let cells = [
+    let drawing = [
         format!("{} ({}–{})", decimal(frame.median), decimal(frame.p25), decimal(frame.p75)),
         frame.samples.len().to_string(),
         decimal(measured.build_ms),
         decimal(measured.device_bytes as f64 / f64::from(1 << 20)),
+    ];
+    let work = measured.work.map_or_else(dash, |work| {
+        format!("{}, {}", decimal(work.nodes_per_ray), decimal(work.balls_per_ray))
+    });
+    cells(drawing, &measured.accuracy, work)
+}
+
+/// Another program's hits: nothing was drawn here.
+fn scored_cells(record: &Record) -> String {
+    let accuracy = record.accuracy();
+    accuracy.map_or_else(String::new, |of| cells([(); 4].map(|()| dash()), of, dash()))
+}
+
+fn cells(drawing: [String; 4], accuracy: &Accuracy, work: String) -> String {
+    let wrong = format!(
+        "{} / {} / {}",
+        accuracy.false_negative, accuracy.false_positive, accuracy.wrong_front
+    );
+    let compared = [
         grouped(accuracy.rays),
         wrong,
         grouped(accuracy.ambiguous),
@@ -103,16 +119,13 @@ fn measured_cells(measured: &Measured) -> String {
         accuracy
             .normal_degrees
             .map_or_else(dash, |error| format!("{}, {}", small(error.mean), small(error.p99))),
-        measured.work.map_or_else(dash, |work| {
-            format!("{}, {}", decimal(work.nodes_per_ray), decimal(work.balls_per_ray))
-        }),
     ];
-    let cell = |(index, text): (usize, &String)| {
+    let cell = |(index, text): (usize, String)| {
         let class =
             if index == 5 && accuracy.wrong_verdicts() > 0 { " class=\"wrong\"" } else { "" };
         format!("<td{class}>{text}</td>")
     };
-    cells.iter().enumerate().map(cell).collect()
+    drawing.into_iter().chain(compared).chain([work]).enumerate().map(cell).collect()
 }
 
 fn scene_section(scene: &SceneComparison) -> String {
@@ -159,8 +172,8 @@ fn passes(scene: &SceneComparison, pictures: &Pictures) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
-fn title(pictures: &Pictures) -> &'static str {
-    methods::find(pictures.method).map_or(pictures.method, |method| method.title)
+fn title(pictures: &Pictures) -> &str {
+    methods::find(&pictures.method).map_or(&pictures.method, |method| method.title)
 }
 
 fn figure(png: &[u8], title: &str, what: &str) -> String {
@@ -220,7 +233,7 @@ mod tests {
             about: "<i>".to_owned(),
             records: Vec::new(),
             reference: Some(vec![1, 2, 3]),
-            pictures: vec![Pictures { method: "bvh", shaded: vec![4], heat: vec![5] }],
+            pictures: vec![Pictures { method: "bvh".to_owned(), shaded: vec![4], heat: vec![5] }],
             remarks: vec!["<u>".to_owned()],
         };
         let page = page(&records, &[scene], &["R < 1".to_owned()]);

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use bench_scenes::{BenchScene, mean_overlap};
-use metaball_core::gpu::{Gpu, RenderError, Shading, Targets};
-use metaball_core::reference::Oracle;
+use anyhow::ensure;
+use bench_scenes::BenchScene;
+use metaball_core::gpu::{Frame, Gpu, RenderError, Shading, Targets};
 use metaball_core::{Hit, Picture, Verdict, View};
 
 use crate::configuration::Configuration;
 use crate::heat::heat_map;
+use crate::imported::ImportedHits;
 use crate::measure::{
     PreparedRenderer, Sampling, Timing, count_work, milliseconds, time_all, views,
 };
@@ -31,6 +32,8 @@ pub struct Options {
     pub along_path: bool,
     /// Whether to compare every pixel of a large scene too.
     pub every_pixel: bool,
+    /// Pictures by other programs, compared too.
+    pub imported: Vec<ImportedHits>,
     /// Whether to count work too, with renderers of its own, whose shaders are compiled anew.
     pub counts_work: bool,
 }
@@ -55,24 +58,13 @@ pub struct SceneComparison {
 /// What a method drew.
 #[derive(Debug, Clone)]
 pub struct Pictures {
-    /// Name of the method.
-    pub method: &'static str,
+    /// Name of the method, or of another program.
+    pub method: String,
     /// PNG of its picture.
     pub shaded: Vec<u8>,
     /// PNG of its difference to the reference.
     pub heat: Vec<u8>,
 }
-
-/// Pictures with up to this many pixels are compared whole: on two cores the oracle takes some ten
-/// seconds for the densest of the known scenes.
-const COMPARED_WHOLE_PIXELS: usize = 640 * 480;
-
-/// Scenes with up to this many balls are compared whole at any size.
-const COMPARED_WHOLE_BALLS: usize = 10_000;
-
-/// Scenes in which a ball's centre lies in more supports than this are not: the oracle's time grows with
-/// the square of the balls that a ray meets, to minutes.
-const COMPARED_WHOLE_OVERLAP: f64 = 100.0;
 
 /// Steps of progress that [`compare_scene`] makes. A configuration's first frame, for which shaders are
 /// compiled, counts as much as all that are timed, which take about as long.
@@ -102,11 +94,12 @@ pub fn compare_scene(
         pictures: Vec::new(),
         remarks: Vec::new(),
     };
-    if !frames.is_empty() {
-        comparer.compare(frames, &mut results, &mut comparison)?;
+    let mut scored = Vec::new();
+    if !frames.is_empty() || !options.imported.is_empty() {
+        scored = comparer.compare(frames, &mut results, &mut comparison)?;
     }
-    comparison.records =
-        results.into_iter().map(|(index, result)| comparer.record(index, result)).collect();
+    let measured = results.into_iter().map(|(index, result)| comparer.record(index, result));
+    comparison.records = measured.chain(scored).collect();
     Ok(comparison)
 }
 
@@ -138,6 +131,15 @@ impl<'a> Comparer<'a> {
         progress: &'a dyn Progress,
     ) -> anyhow::Result<Self> {
         let (width, height) = options.size;
+        for imported in &options.imported {
+            let (found_width, found_height) = (imported.image.width, imported.image.height);
+            ensure!(
+                (found_width, found_height) == options.size,
+                "hits {}: needed a picture of {width} × {height}, found {found_width} × \
+                 {found_height} (compare with --size {found_width}x{found_height})",
+                imported.file.display()
+            );
+        }
         let view = View::new(bench.camera, width, height)?;
         let colors = bench.scene.colors().is_some();
         let targets = Targets::new(gpu, width, height, colors, false)?;
@@ -169,16 +171,21 @@ impl<'a> Comparer<'a> {
         Ok(frames)
     }
 
-    /// Compares, times and counts all that drew.
+    /// Compares, times and counts all that drew; returns the records of what other programs drew.
     fn compare(
         &self,
         frames: Vec<FirstFrame>,
         results: &mut Results,
         comparison: &mut SceneComparison,
-    ) -> anyhow::Result<()> {
+    ) -> anyhow::Result<Vec<Record>> {
         self.stage("reference");
-        let images: Vec<_> = frames.iter().map(|d| d.renderer.hits.as_slice()).collect();
-        let reference = self.reference(&images)?;
+        if frames.is_empty() {
+            // A frame without a method makes the rays.
+            Frame::begin(self.gpu, &self.targets, &self.view)?.finish()?;
+        }
+        let imported = self.options.imported.iter().map(|imported| &imported.image.hits[..]);
+        let drawn = frames.iter().map(|frame| &frame.renderer.hits[..]);
+        let reference = self.reference(&drawn.chain(imported).collect::<Vec<_>>())?;
         // Colours, where there are any, are those of the method that drew last.
         self.targets.write_hits(self.gpu, &reference.hits())?;
         comparison.reference = Some(self.shade()?);
@@ -209,7 +216,7 @@ impl<'a> Comparer<'a> {
             });
             if result.is_ok() {
                 comparison.pictures.push(Pictures {
-                    method: configuration.method.name,
+                    method: configuration.method.name.to_owned(),
                     shaded,
                     heat,
                 });
@@ -218,23 +225,35 @@ impl<'a> Comparer<'a> {
             self.progress.advance(1);
         }
         comparison.remarks = remarks(&reference);
-        Ok(())
+        self.score_imported(&reference, comparison)
+    }
+
+    /// Scores what other programs drew; their pictures stand behind those of the methods.
+    fn score_imported(
+        &self,
+        reference: &Reference,
+        comparison: &mut SceneComparison,
+    ) -> anyhow::Result<Vec<Record>> {
+        let mut records = Vec::new();
+        for imported in &self.options.imported {
+            self.targets.write_hits(self.gpu, &imported.image.hits)?;
+            comparison.pictures.push(Pictures {
+                method: imported.name.clone(),
+                shaded: self.shade()?,
+                heat: encode_png(&heat_map(reference, &imported.image.hits))?,
+            });
+            let adapter = Adapter::from(self.gpu.report());
+            let view = (&self.bench.name[..], &self.bench.scene);
+            records.push(imported.record(view, reference, adapter)?);
+        }
+        Ok(records)
     }
 
     /// The truth along the rays that the shaders used, read back.
     fn reference(&self, images: &[&[Hit]]) -> anyhow::Result<Reference> {
-        let scene = &self.bench.scene;
-        let size = self.options.size;
         let rays = self.targets.read_rays(self.gpu, &self.view)?;
-        let oracle = Oracle::new(scene);
-        let is_small =
-            || rays.len() <= COMPARED_WHOLE_PIXELS || scene.len() <= COMPARED_WHOLE_BALLS;
-        let is_sparse = || mean_overlap(scene) <= COMPARED_WHOLE_OVERLAP;
-        if self.options.every_pixel || (is_small() && is_sparse()) {
-            return Ok(Reference::of_every_pixel(size, oracle.first_hits(&rays)));
-        }
-        let radius = scene.supports().iter().map(|ball| ball.radius).fold(f32::INFINITY, f32::min);
-        Ok(Reference::of_telling_pixels(&oracle, &rays, size, images, radius))
+        let (scene, size) = (&self.bench.scene, self.options.size);
+        Ok(Reference::of_pictures(scene, &rays, size, images, self.options.every_pixel))
     }
 
     fn time(
@@ -281,6 +300,7 @@ impl<'a> Comparer<'a> {
             status,
             reason,
             measured,
+            scored: None,
         }
     }
 
@@ -389,6 +409,7 @@ mod tests {
             sampling: Sampling::exactly(2),
             along_path: true,
             every_pixel: false,
+            imported: Vec::new(),
             counts_work: true,
         };
         let comparison = compare_scene(&gpu, &bench, &options, &()).expect("compared");
@@ -414,6 +435,7 @@ mod tests {
             sampling: Sampling::exactly(1),
             along_path: false,
             every_pixel: false,
+            imported: Vec::new(),
             counts_work: true,
         };
         let comparison = compare_scene(&gpu, &bench, &options, &()).expect("compared");

@@ -227,10 +227,13 @@ impl<'a> Judge<'a> {
         let point = ray.origin.as_dvec3() + t * ray.direction.as_dvec3();
         let threshold = f64::from(self.scene.threshold());
         let residual = self.oracle.field(point) - threshold;
-        let Stop::Residual(stop) = terms.stop else {
-            return Err(format!("a stand-in needs a residual, found {:?}", terms.stop));
-        };
-        let slack = rounding.of_field + stop * threshold;
+        let slack = rounding.of_field
+            + match terms.stop {
+                Stop::Residual(residual) => residual * threshold,
+                Stop::Distance(distance) => {
+                    distance * f64::from(truth.smallest_radius) * rounding.slope
+                }
+            };
         let (least, greatest) = stand_in.at(t);
         // A start inside has any field from T up.
         if residual < least - slack || (t > 0.0 && residual > greatest + slack) {
@@ -296,6 +299,8 @@ impl<'a> Judge<'a> {
 /// (k″/k′)·δv + e/R + 5u, and k″δv is at most 56δv for the steepest kernel (α = 8).
 struct Rounding {
     of_field: f64,
+    /// The field is nowhere steeper at the point, 1/scene unit.
+    slope: f64,
     /// Sine of the angle between the gradient and its f32 value; 1 or more: any normal is right.
     of_normal: f64,
 }
@@ -304,7 +309,7 @@ impl Rounding {
     fn at(scene: &Scene, ray: &Ray, t: f64) -> Self {
         let unit = f64::from(f32::EPSILON);
         let kernel = scene.kernel();
-        let (mut of_field, mut field, mut count) = (0.0, 0.0, 0.0);
+        let (mut of_field, mut steepest, mut field, mut count) = (0.0, 0.0, 0.0, 0.0);
         let (mut gradient, mut of_gradient) = (glam::DVec3::ZERO, 0.0);
         for ball in scene.balls() {
             let from_center = ray.origin.as_dvec3() - ball.center.as_dvec3();
@@ -320,12 +325,13 @@ impl Rounding {
             let slope = kernel.slope(squared_ratio).abs();
             count += 1.0;
             field += strength * kernel.value(squared_ratio);
+            steepest += 2.0 * strength * slope / radius;
             of_field += strength * (slope * of_v + 28.0 * of_v * of_v);
             gradient += 2.0 * strength * slope / (radius * radius) * offset;
             of_gradient += 2.0 * strength / radius
                 * (56.0 * of_v + slope * (of_offset / radius + (5.0 + count) * unit));
         }
         let of_normal = if gradient.length() > 0.0 { of_gradient / gradient.length() } else { 1.0 };
-        Self { of_field: of_field + count * unit * field, of_normal }
+        Self { of_field: of_field + count * unit * field, slope: steepest, of_normal }
     }
 }

@@ -67,6 +67,26 @@ pub struct Record {
     /// The result; its keys stand beside those above, and are missing when there is none.
     #[serde(flatten)]
     pub measured: Option<Measured>,
+    /// The comparison of another program's hits, which were not drawn here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scored: Option<Scored>,
+}
+
+/// Another program's hits, compared with the reference.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Scored {
+    /// The file that they are from.
+    pub file: String,
+    /// Comparison with the reference.
+    pub accuracy: Accuracy,
+}
+
+impl Record {
+    /// The comparison with the reference, whoever drew; `None` where there is no result.
+    pub fn accuracy(&self) -> Option<&Accuracy> {
+        let measured = self.measured.as_ref().map(|measured| &measured.accuracy);
+        measured.or_else(|| self.scored.as_ref().map(|scored| &scored.accuracy))
+    }
 }
 
 /// Whether a method has a result on a scene.
@@ -75,6 +95,8 @@ pub struct Record {
 pub enum Status {
     /// Drawn whole, compared and timed.
     Ok,
+    /// Another program's hits, compared.
+    Scored,
     /// A frame stayed incomplete however much room the method made.
     Incomplete,
     /// The method or the adapter cannot do this scene.
@@ -88,6 +110,7 @@ impl fmt::Display for Status {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
             Self::Ok => "ok",
+            Self::Scored => "scored",
             Self::Incomplete => "incomplete",
             Self::Unsupported => "unsupported",
             Self::Skipped => "skipped",
@@ -244,6 +267,7 @@ mod tests {
             status,
             reason: reason.map(str::to_owned),
             measured,
+            scored: None,
         }
     }
 

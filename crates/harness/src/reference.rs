@@ -1,7 +1,8 @@
 //! The oracle's answers for one picture, for every pixel or a stated part of them.
 
+use bench_scenes::mean_overlap;
 use metaball_core::reference::{Oracle, Truth};
-use metaball_core::{Hit, Ray};
+use metaball_core::{Hit, Ray, Scene};
 
 use crate::subset::Subset;
 
@@ -19,6 +20,17 @@ pub struct Reference {
 /// A large picture is always scored on every fourth pixel across and down.
 const STRIDE: usize = 4;
 
+/// Pictures with up to this many pixels are compared whole: on two cores the oracle takes some ten
+/// seconds for the densest of the known scenes.
+const COMPARED_WHOLE_PIXELS: usize = 640 * 480;
+
+/// Scenes with up to this many balls are compared whole at any size.
+const COMPARED_WHOLE_BALLS: usize = 10_000;
+
+/// Scenes in which a ball's centre lies in more supports than this are not: the oracle's time grows with
+/// the square of the balls that a ray meets, to minutes.
+const COMPARED_WHOLE_OVERLAP: f64 = 100.0;
+
 impl Reference {
     /// From the truths of all pixels, row by row from the top left.
     ///
@@ -29,6 +41,27 @@ impl Reference {
         assert_eq!(truths.len(), pixels, "a truth for each pixel");
         let subset = "every pixel".to_owned();
         Self { width, height, pixels: (0..pixels).collect(), truths, subset }
+    }
+
+    /// The truth that pictures of a scene are held against, along the rays of all pixels: for every pixel
+    /// of small pictures and sparse scenes, and where that is asked for; else for [those that tell the
+    /// images apart](Self::of_telling_pixels).
+    pub fn of_pictures(
+        scene: &Scene,
+        rays: &[Ray],
+        size: (u32, u32),
+        images: &[&[Hit]],
+        every_pixel: bool,
+    ) -> Self {
+        let oracle = Oracle::new(scene);
+        let is_small =
+            || rays.len() <= COMPARED_WHOLE_PIXELS || scene.len() <= COMPARED_WHOLE_BALLS;
+        let is_sparse = || mean_overlap(scene) <= COMPARED_WHOLE_OVERLAP;
+        if every_pixel || (is_small() && is_sparse()) {
+            return Self::of_every_pixel(size, oracle.first_hits(rays));
+        }
+        let radius = scene.supports().iter().map(|ball| ball.radius).fold(f32::INFINITY, f32::min);
+        Self::of_telling_pixels(&oracle, rays, size, images, radius)
     }
 
     /// Asks the oracle about a lattice of pixels, every pixel where two of the images disagree, and

@@ -97,7 +97,8 @@ pub(crate) struct RenderArgs {
     /// Where the PNG goes.
     #[arg(long, value_name = "FILE", default_value = "out/image.png")]
     out: PathBuf,
-    /// Write distances (Z) and normals (N.X, N.Y, N.Z) as f32 channels of an OpenEXR file too.
+    /// Write distances and normals too: as f32 channels (Z, N.X, N.Y, N.Z) of an OpenEXR file, or as a
+    /// NumPy array (.npy).
     #[arg(long, value_name = "FILE")]
     hits: Option<PathBuf>,
     /// Write the picture's linear light as an OpenEXR file too.

@@ -1,5 +1,7 @@
 //! The command line `metaball`: arguments and words. A file for each kind of command; what they do is
 //! in the crates `metaball`, which draws, and `experiments`, which measures.
+//!
+//! [`run`] is the binary. [`run_with`] is a binary of your own in which your [`Method`] takes part.
 
 mod camera;
 mod draw;
@@ -17,9 +19,14 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use experiments::console;
+pub use harness::judge::Stop;
+pub use harness::judge::promise::Promise;
+pub use harness::methods::Method;
+use harness::methods::add_methods;
+pub use harness::technique::{Own, Technique};
 
 use self::draw::{AnimateArgs, RenderArgs};
-use self::measure::{CertifyArgs, ChartArgs, CompareArgs, StabilityArgs};
+use self::measure::{CertifyArgs, ChartArgs, CompareArgs, DiffArgs, ScoreArgs, StabilityArgs};
 use self::tables::TablesCommand;
 
 /// Ray casters of metaball isosurfaces on the GPU, compared with an exact reference.
@@ -34,6 +41,14 @@ struct Cli {
 enum Command {
     /// Draw scenes with methods, hold the pictures against the reference, and write a page about it.
     Compare(CompareArgs),
+    /// Hold hits of any program against the reference, and print the row that compare would.
+    ///
+    /// One hit for each pixel of the scene's camera, as OpenEXR or NumPy: docs/hits-format.md. Needs no
+    /// graphics adapter.
+    Score(ScoreArgs),
+    /// Say what changed between two files of records, of compare or chart: faster, slower, more or fewer
+    /// wrong rays, by more than the spread.
+    Diff(DiffArgs),
     /// Draw one picture.
     Render(Box<RenderArgs>),
     /// Draw the frames of a moving scene, and report how long building and drawing took.
@@ -66,7 +81,38 @@ enum Command {
 
 /// Does what the process's arguments say, and says what went wrong.
 pub fn run() -> ExitCode {
-    match obey(Cli::parse().command) {
+    run_with([])
+}
+
+/// The same with methods of somebody else's, which join every command as those of this workspace do.
+///
+/// ```no_run
+/// # use metaball_core::gpu::IsoRenderer;
+/// # fn renderer(_counting: bool) -> Box<dyn IsoRenderer> { unimplemented!() }
+/// use std::process::ExitCode;
+///
+/// use metaball_cli::{Method, Own, Promise, Stop, Technique};
+///
+/// const MARCH: Method = Method {
+///     name: "march",
+///     title: "Ray march",
+///     paper: "not published",
+///     about: "Goes along the ray in short steps.",
+///     technique: Technique::Own(Own {
+///         make: |counting| renderer(counting),
+///         promise: Promise::Always,
+///         stop: Stop::Residual(1e-5),
+///         refuses: |_| None,
+///     }),
+/// };
+///
+/// fn main() -> ExitCode {
+///     metaball_cli::run_with([MARCH])
+/// }
+/// ```
+pub fn run_with(own: impl IntoIterator<Item = Method>) -> ExitCode {
+    let outcome = add_methods(own).map_err(anyhow::Error::from);
+    match outcome.and_then(|()| obey(Cli::parse().command)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             console::note(&format!("metaball: {error:#}"));
@@ -78,6 +124,8 @@ pub fn run() -> ExitCode {
 fn obey(command: Command) -> anyhow::Result<()> {
     match command {
         Command::Compare(compare) => compare.run(),
+        Command::Score(score) => score.run(),
+        Command::Diff(diff) => diff.run(),
         Command::Render(render) => render.run(),
         Command::Animate(animate) => animate.run(),
         Command::Tables { of } => of.run(),

@@ -1,20 +1,29 @@
-//! The commands that measure and judge: `compare`, `chart`, `stability` and `certify`.
+//! The commands that measure and judge: `compare`, `score`, `diff`, `chart`, `stability` and
+//! `certify`.
 
 use std::path::PathBuf;
 
+use anyhow::ensure;
 use bench_scenes::Case;
 use clap::Args;
 use experiments::certify::{self, certify};
 use experiments::chart::{self, chart};
 use experiments::compare::{self, DEFAULT_SCENES, compare};
+use experiments::console;
+use experiments::diff::diff;
+use experiments::score::{self, score};
 use experiments::stability::{self, stability};
+use glam::Vec3;
 use harness::comparison;
 use harness::configuration::Configuration;
+use harness::imported::ImportedHits;
 use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, Method, methods};
+use metaball_core::{Camera, Scene};
 
+use crate::camera::CameraArgs;
 use crate::names::{case_parser, configuration_parser, method_parser};
-use crate::shared::{AdapterArgs, PictureArgs};
+use crate::shared::{AdapterArgs, FieldArgs, PictureArgs};
 use crate::values;
 
 #[derive(Debug, Args)]
@@ -38,7 +47,11 @@ pub(crate) struct CompareArgs {
     /// Compare every pixel, of large scenes too.
     #[arg(long)]
     every_pixel: bool,
-    /// Folder for index.html and records.json.
+    /// Hits of another program, .exr or .npy, to compare too; may be repeated, for one scene. The format
+    /// is that of docs/hits-format.md.
+    #[arg(long, value_name = "NAME=FILE", value_parser = values::named_file)]
+    hits: Vec<(String, PathBuf)>,
+    /// Folder for index.html, records.json and records.csv.
     #[arg(long, value_name = "DIR", default_value = "out/compare")]
     out: PathBuf,
     #[command(flatten)]
@@ -47,6 +60,13 @@ pub(crate) struct CompareArgs {
 
 impl CompareArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
+        ensure!(
+            self.hits.is_empty() || self.scenes.len() == 1,
+            "--hits: needed one scene that they are of, found {}",
+            self.scenes.join(", ")
+        );
+        let imported = self.hits.iter().map(|(name, file)| ImportedHits::read(name, file));
+        let imported = imported.collect::<Result<_, _>>()?;
         let chosen = if self.every_method { methods().iter().collect() } else { self.methods };
         let comparison = comparison::Options {
             configurations: chosen.into_iter().map(Configuration::preset).collect(),
@@ -54,6 +74,7 @@ impl CompareArgs {
             sampling: self.frames.map_or(Sampling::QUICK, |n| Sampling::exactly(n.into())),
             along_path: self.path,
             every_pixel: self.every_pixel,
+            imported,
             counts_work: true,
         };
         let (overrides, adapter) = (self.shared.overrides(), self.shared.device.choice());
@@ -64,6 +85,74 @@ impl CompareArgs {
             adapter,
             out: self.out,
         })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ScoreArgs {
+    /// A known name, a generator such as scattered:50000, or a file.
+    scene: String,
+    /// The hits: .exr or .npy, one for each pixel, as docs/hits-format.md says.
+    #[arg(required_unless_present = "camera")]
+    hits: Option<PathBuf>,
+    /// What the program that found them is called.
+    #[arg(long, value_name = "NAME", default_value = "other")]
+    name: String,
+    /// Print the scene's camera, for another program to use, in place of a score.
+    #[arg(long)]
+    camera: bool,
+    /// Compare every pixel, of large scenes too.
+    #[arg(long)]
+    every_pixel: bool,
+    #[command(flatten)]
+    viewpoint: CameraArgs,
+    #[command(flatten)]
+    field: FieldArgs,
+}
+
+impl ScoreArgs {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        let Self { scene, hits, name, camera, every_pixel, viewpoint, field } = self;
+        let (viewpoint, overrides) = (viewpoint.viewpoint(), field.overrides());
+        let seen_from =
+            |scene: &Scene, own: &Camera| Ok(viewpoint.camera(own, scene.bounds().center())?);
+        if camera {
+            let bench = bench_scenes::load(&scene, &overrides)?;
+            console::line(&camera_text(&seen_from(&bench.scene, &bench.camera)?));
+        }
+        let Some(file) = hits else { return Ok(()) };
+        let camera = &seen_from;
+        score(&score::Options { scene, overrides, camera, every_pixel, name, file })
+    }
+}
+
+/// As a scene file says it, and the axes that rays are made of.
+fn camera_text(camera: &Camera) -> String {
+    let vector = |of: Vec3| format!("[{}, {}, {}]", of.x, of.y, of.z);
+    let fov = 2.0 * f64::from(camera.half_height()).atan().to_degrees();
+    format!(
+        "[camera]\neye = {}\nlook_at = {}\nup = {}\nvertical_fov_degrees = {fov}\n# unit axes\n\
+         # right = {}\n# up = {}\n# forward = {}",
+        vector(camera.eye()),
+        vector(camera.eye() + camera.forward()),
+        vector(camera.up()),
+        vector(camera.right()),
+        vector(camera.up()),
+        vector(camera.forward())
+    )
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DiffArgs {
+    /// Records of compare or chart, the earlier ones.
+    before: PathBuf,
+    /// The later ones.
+    after: PathBuf,
+}
+
+impl DiffArgs {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        diff(&self.before, &self.after)
     }
 }
 
@@ -81,7 +170,7 @@ pub(crate) struct ChartArgs {
     /// Pixels across and down; 640x480 when left out, 320x240 on a software adapter.
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     size: Option<(u32, u32)>,
-    /// Folder for chart.html and chart.json.
+    /// Folder for chart.html, chart.json and chart.csv.
     #[arg(long, value_name = "DIR", default_value = "out/chart")]
     out: PathBuf,
     #[command(flatten)]

@@ -15,6 +15,19 @@ pub(crate) struct PictureArgs {
     pub(crate) size: (u32, u32),
     #[command(flatten)]
     pub(crate) device: AdapterArgs,
+    #[command(flatten)]
+    field: FieldArgs,
+}
+
+impl PictureArgs {
+    pub(crate) fn overrides(&self) -> Overrides {
+        self.field.overrides()
+    }
+}
+
+/// What is changed about a scene's field.
+#[derive(Debug, Args)]
+pub(crate) struct FieldArgs {
     /// Kernel in place of the scene's own: power, wyvill or perlin.
     #[arg(long, value_name = "NAME", value_parser = values::kernel)]
     kernel: Option<Kernel>,
@@ -26,9 +39,9 @@ pub(crate) struct PictureArgs {
     threshold: Option<f32>,
 }
 
-impl PictureArgs {
+impl FieldArgs {
     pub(crate) fn overrides(&self) -> Overrides {
-        let &Self { kernel, exponent, threshold, .. } = self;
+        let &Self { kernel, exponent, threshold } = self;
         Overrides { kernel, exponent, threshold, color: None }
     }
 }

@@ -1,6 +1,7 @@
 //! Values that are written on the command line.
 
 use std::ops::Range;
+use std::path::PathBuf;
 
 use glam::Vec3;
 use metaball_core::Kernel;
@@ -31,6 +32,14 @@ pub(crate) fn kernel(name: &str) -> Result<Kernel, LoadError> {
 pub(crate) fn max_error(text: &str) -> Result<f64, String> {
     let error = text.parse().ok().filter(|error: &f64| error.is_finite() && *error > 0.0);
     error.ok_or_else(|| "needed a number above 0, in mean support radii, such as 1e-3".to_owned())
+}
+
+/// A name and a file.
+pub(crate) fn named_file(text: &str) -> Result<(String, PathBuf), String> {
+    text.split_once('=')
+        .filter(|(name, file)| !name.is_empty() && !file.is_empty())
+        .map(|(name, file)| (name.to_owned(), PathBuf::from(file)))
+        .ok_or_else(|| "needed NAME=FILE, such as mine=hits.exr".to_owned())
 }
 
 /// Three numbers with commas between.

@@ -5,7 +5,7 @@
 //! | a picture | PNG, eight bits a channel, sRGB | [`encode_png`] |
 //! | a picture that says what it shows | the same with a text | [`encode_described_png`], [`description_in_png`] |
 //! | pictures side by side | PNG | [`write_sheet`] |
-//! | hits: distance and normal | OpenEXR, f32 channels | [`write_hits`], [`read_hits`] |
+//! | hits: distance and normal | OpenEXR or NumPy | [`write_hits`], [`read_hits`] |
 //! | linear light | OpenEXR; Radiance HDR is read too | [`write_light`], [`read_light`] |
 //!
 //! [`write_atomically`] is how all of them reach the disk.
@@ -24,7 +24,7 @@
 mod atomic;
 mod described_png;
 mod error;
-mod hits_exr;
+mod hits;
 mod light;
 mod png;
 mod sheet;
@@ -32,7 +32,7 @@ mod sheet;
 pub use atomic::write_atomically;
 pub use described_png::{description_in_png, encode_described_png};
 pub use error::PictureFileError;
-pub use hits_exr::{HitImage, read_hits, write_hits};
+pub use hits::{HitImage, read_hits, write_hits};
 pub use light::{LightImage, read_light, write_light};
 pub use png::encode_png;
 pub use sheet::write_sheet;

@@ -9,6 +9,7 @@ use anyhow::Context;
 use glam::DVec3;
 use image::Rgb;
 use metaball_core::{Hit, Scene, Verdict, View};
+use picture_files::HitImage;
 use tempfile::TempDir;
 
 /// How a reader comes by the peer.
@@ -80,7 +81,7 @@ impl Povray {
     ///
     /// # Errors
     /// When it fails, with its own words, or leaves no picture of the size.
-    pub fn hits(&self, job: &Job<'_>) -> anyhow::Result<Vec<Hit>> {
+    pub fn hits(&self, job: &Job<'_>) -> anyhow::Result<HitImage> {
         job.draw(true)?;
         let picture = image::open(job.folder.path().join(PICTURE_FILE))
             .with_context(|| format!("{PROGRAM}: no picture to read"))?
@@ -100,7 +101,8 @@ impl Povray {
                 Hit { verdict: Verdict::Hit, t, ..Hit::MISS }
             })
         };
-        Ok(picture.enumerate_pixels().map(hit).collect())
+        let hits = picture.enumerate_pixels().map(hit).collect();
+        Ok(HitImage { width, height, hits, has_normals: false })
     }
 }
 

@@ -8,11 +8,13 @@ use bench_scenes::{Overrides, load};
 use fbvh::{Options, Tracer, Tree};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Kernel, Ray, Scene, View};
+use picture_files::HitImage;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 
 use super::povray::{Job, Povray, Times};
 use crate::console::ProgressBar;
+use harness::imported::accuracy_of;
 use harness::measure::milliseconds;
 use harness::record::Samples;
 use harness::reference::Reference;
@@ -134,17 +136,14 @@ pub fn measure(
     progress.advance(1);
     let ours = ours.summary(&hits, score(&reference, &hits)?);
     let peer = match depths {
-        Ok(hits) => {
-            let accuracy = Accuracy { normal_degrees: None, ..score(&reference, &hits)? };
-            Ok(theirs.summary(&hits, accuracy))
-        }
+        Ok(image) => Ok(theirs.summary(&image.hits, accuracy_of(&image, &reference)?)),
         Err(reason) => Err(reason),
     };
     Ok(Measured { balls: scene.len(), kernel, ours, peer })
 }
 
-fn images<'a>(ours: &'a [Hit], theirs: &'a Result<Vec<Hit>, String>) -> Vec<&'a [Hit]> {
-    std::iter::once(ours).chain(theirs.as_deref().ok()).collect()
+fn images<'a>(ours: &'a [Hit], theirs: &'a Result<HitImage, String>) -> Vec<&'a [Hit]> {
+    std::iter::once(ours).chain(theirs.iter().map(|image| &image.hits[..])).collect()
 }
 
 /// The oracle on telling pixels; on all of a small picture.

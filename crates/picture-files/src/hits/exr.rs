@@ -1,63 +1,31 @@
-//! Hits as OpenEXR, for other programs to compare with, and from them.
+//! Hits as OpenEXR: f32 channels `Z`, `N.X`, `N.Y`, `N.Z`.
 
 use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes};
 use exr::prelude::{ReadChannels, ReadLayers, Vec2, WritableImage, read};
-use glam::Vec3;
-use metaball_core::{Hit, Verdict};
+use metaball_core::Hit;
 
-use crate::{PictureFileError, write_atomically};
+use super::{HitImage, values};
+use crate::PictureFileError;
 
 /// Channels of normals.
 const NORMALS: [&str; 3] = ["N.X", "N.Y", "N.Z"];
 
-/// The hits of a picture.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HitImage {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Row by row from the top left.
-    pub hits: Vec<Hit>,
-    /// Whether the file has normals; without them all are zero.
-    pub has_normals: bool,
-}
-
-/// Writes an image of hits, row by row from the top left, as f32 channels: `Z` is the distance along
-/// the unit primary ray in scene units, +∞ for a miss, 0 where the ray starts inside; `N.X`, `N.Y`,
-/// `N.Z` are the unit outward normal, zero for a miss. Where a method could not tell, Z is NaN and the
-/// normal zero.
-///
-/// # Errors
-/// When there are not width times height hits, or the file cannot be written.
-pub fn write_hits(
+/// The file of width times height hits.
+pub(super) fn encode(
     path: &Path,
-    width: u32,
-    height: u32,
+    (width, height): (usize, usize),
     hits: &[Hit],
-) -> Result<(), PictureFileError> {
-    let size = Vec2(width as usize, height as usize);
-    if hits.len() != size.area() {
-        return Err(PictureFileError::Size {
-            what: "hits".to_owned(),
-            needed: format!("{width} × {height} pixels"),
-            found: hits.len(),
-        });
-    }
-    let distance = |hit: &Hit| match hit.verdict {
-        Verdict::Hit | Verdict::Inside => hit.t,
-        Verdict::Miss => f32::INFINITY,
-        Verdict::Undecided => f32::NAN,
-    };
-    let normal = |axis: usize| move |hit: &Hit| if hit.is_hit() { hit.normal[axis] } else { 0.0 };
+) -> Result<Vec<u8>, PictureFileError> {
+    let size = Vec2(width, height);
+    let value = |index: usize| move |hit: &Hit| values(hit)[index];
     let channels = [
-        channel("Z", hits, distance),
-        channel(NORMALS[0], hits, normal(0)),
-        channel(NORMALS[1], hits, normal(1)),
-        channel(NORMALS[2], hits, normal(2)),
+        channel("Z", hits, value(0)),
+        channel(NORMALS[0], hits, value(1)),
+        channel(NORMALS[1], hits, value(2)),
+        channel(NORMALS[2], hits, value(3)),
     ];
     let layer = Layer::new(
         size,
@@ -70,20 +38,15 @@ pub fn write_hits(
         .write()
         .to_buffered(&mut file)
         .map_err(PictureFileError::encode(path.display().to_string()))?;
-    write_atomically(path, file.get_ref())
+    Ok(file.into_inner())
 }
 
 fn channel(name: &str, hits: &[Hit], value: impl Fn(&Hit) -> f32) -> AnyChannel<FlatSamples> {
     AnyChannel::new(name, FlatSamples::F32(hits.iter().map(value).collect()))
 }
 
-/// Reads what [`write_hits`] writes: `Z` as f32 or f16, with or without normals. A distance of 0 is a ray
-/// that starts inside.
-///
-/// # Errors
-/// When the file cannot be read, has no channel `Z`, some but not all of the normals, or a distance
-/// below 0.
-pub fn read_hits(path: &Path) -> Result<HitImage, PictureFileError> {
+/// Reads what [`encode`] makes: channels of f32 or f16, with or without normals.
+pub(super) fn read_file(path: &Path) -> Result<HitImage, PictureFileError> {
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -115,36 +78,20 @@ pub fn read_hits(path: &Path) -> Result<HitImage, PictureFileError> {
     };
     let distances = floats(distances)?;
     let normals = normals.into_iter().flatten().map(floats).collect::<Result<Vec<_>, _>>()?;
-    let hits = distances.iter().enumerate().map(|(pixel, &t)| {
-        let normal = normals.iter().map(|axis| axis[pixel]).collect::<Vec<_>>();
-        let normal = <[f32; 3]>::try_from(normal).map_or(Vec3::ZERO, Vec3::from);
-        hit(t, normal).ok_or_else(|| {
-            let (column, row) = (pixel % size.x(), pixel / size.x());
-            content("distances of at least 0", format!("Z = {t} at column {column}, row {row}"))
-        })
+    let values = distances.iter().enumerate().map(|(pixel, &t)| {
+        let axis = |index: usize| normals.get(index).map_or(0.0, |axis| axis[pixel]);
+        [t, axis(0), axis(1), axis(2)]
     });
-    let hits = hits.collect::<Result<Vec<_>, _>>()?;
-    // Sizes come from a file that was made of u32s, or are bounded by what fits into memory.
-    let [width, height] =
-        [size.x(), size.y()].map(|pixels| u32::try_from(pixels).unwrap_or(u32::MAX));
-    Ok(HitImage { width, height, hits, has_normals })
-}
-
-/// What a distance says; `None` where it says nothing.
-pub(crate) fn hit(t: f32, normal: Vec3) -> Option<Hit> {
-    let found = |verdict| Some(Hit { verdict, fallback: false, t, normal });
-    match t {
-        t if t.is_nan() => Some(Hit { verdict: Verdict::Undecided, ..Hit::MISS }),
-        f32::INFINITY => Some(Hit::MISS),
-        0.0 => found(Verdict::Inside),
-        t if t > 0.0 => found(Verdict::Hit),
-        _ => None,
-    }
+    HitImage::of_values(path, (size.x(), size.y()), has_normals, values)
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+    use metaball_core::Verdict;
+
     use super::*;
+    use crate::{read_hits, write_hits};
 
     fn hit_at(t: f32, normal: Vec3) -> Hit {
         Hit { verdict: Verdict::Hit, fallback: false, t, normal }
@@ -194,12 +141,6 @@ mod tests {
         let verdicts = |hits: &[Hit]| hits.iter().map(|hit| hit.verdict).collect::<Vec<_>>();
         assert_eq!(verdicts(&back.hits), verdicts(&hits));
         assert_eq!((back.hits[0], back.hits[3]), (hits[0], hits[3]));
-    }
-
-    #[test]
-    fn a_truncated_image_is_refused() {
-        let error = write_hits(Path::new("unused.exr"), 2, 2, &[Hit::MISS; 3]);
-        assert_eq!(error.expect_err("refused").to_string(), "hits: needed 2 × 2 pixels, found 3");
     }
 
     #[test]
