@@ -16,7 +16,7 @@ pub enum ComposeError {
     /// The table has no such module.
     #[error("shader module {name}: not in the table of modules")]
     Unknown {
-        /// The name asked for.
+        /// The name that was given.
         name: String,
     },
     /// An import that no module satisfies, or several do.

@@ -6,7 +6,7 @@
 pub struct Interface {
     /// The folder, such as `fbvh/leaf`.
     pub folder: &'static str,
-    /// What it stands for.
+    /// What it is about.
     pub purpose: &'static str,
     /// What every file in it declares: WGSL without bodies and values, each line with its meaning
     /// above it.
@@ -104,18 +104,15 @@ pub const INTERFACES: &[Interface] = &[
     },
     Interface {
         folder: "ray",
-        purpose: "The rays that a pass answers, for methods that follow any ray.",
+        purpose: "The rays that a pass traces, for methods that trace more than primary rays.",
         declarations: "
-            struct Ray
-            // No pixel.
-            const NOBODY: u32
-            // The pixel whose ray an invocation of a workgroup of 64 answers, or NOBODY.
+            // The pixel whose ray an invocation of a workgroup of 64 traces, or NO_PIXEL.
             fn pixel_of(group: vec3<u32>, index: u32) -> u32
             fn ray_of(pixel: u32) -> Ray
             // Whether anything solid on the ray answers it, first or not.
-            fn any_will_do() -> bool
-            // Whether rays go on from the hit, so that it must say how far the surface can be.
-            fn goes_on() -> bool
+            fn any_hit_suffices() -> bool
+            // Whether secondary rays may start at the hit, so that its clearance is needed.
+            fn needs_clearance() -> bool
         ",
     },
     Interface {
@@ -139,16 +136,31 @@ pub const INTERFACES: &[Interface] = &[
         folder: "fbvh/leaf",
         purpose: "The search of one leaf of a tree.",
         declarations: "
-            // Whether no leaf behind one with a hit holds a nearer.
+            // Whether no leaf behind one with a hit holds a nearer one.
             fn first_hit_ends() -> bool
-            fn seeks_way_out() -> bool
+            // Whether rays start in the solid and look for the exit from it.
+            fn seeks_exit() -> bool
+            // The state of a search, kept while a ray is suspended: 28 bytes.
             struct Search
+            var<private> search: Search
+            // Before the first leaf a cleared state does; after each leaf this.
+            fn reset()
+            // Starts or resumes the search of a leaf. Returns a fbvh::leaf_outcome.
             fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32
+            // The hit last found, and its status.
+            fn hit_t() -> f32
+            fn hit_status() -> u32
+            // Whether the search ended BRACKETED.
             fn is_bracketed() -> bool
+            // Closes in on the root in the bracket: FOUND or WAITING. Apart from the search, so that rays
+            // side by side, which reach their hits in different leaves, do it at the same time.
             fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32
-            fn take_up_way_out(ray: Ray, inverse: vec3<f32>, index: u32) -> bool
-            fn status_found() -> u32
+            // Brackets the exit in a leaf that the ray certainly leaves the solid in, at its far face if
+            // nowhere before. False where the budget is spent.
+            fn bracket_exit(ray: Ray, inverse: vec3<f32>, index: u32) -> bool
+            // What an early end of a search can leave of F - T at a hit.
             fn residual() -> f32
+            // By how much rounding can move a ball's v = 1 - r^2/R^2 at a hit.
             fn depth_error(leaf: Leaf, ray: Ray, t: f32, offset: vec3<f32>, radius: f32) -> f32
         ",
     },
@@ -159,22 +171,23 @@ pub const INTERFACES: &[Interface] = &[
         declarations: "
             // The excess is this times F - T.
             const SIGN: f32
-            // Whether a box that the field is above T in throughout answers the search.
-            const SOLID_ENDS: bool
+            // Whether a box in which the field is above T throughout answers the search.
+            const SOLID_ANSWERS: bool
             // Whether the excess stays below 0 where the field is nowhere more than this.
             fn stays_below(most: f32) -> bool
             // On an interval, by one walk along the balls near.
-            fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds
+            fn bounds_on(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> Bounds
         ",
     },
     Interface {
         folder: "fbvh/polynomial_test",
         purpose: "A test of an interval of a ray in a leaf by a polynomial, which decides most leaves in \
-                  fewer walks along the list than ranges.",
+                  fewer walks along the list than ranges do; what it leaves uncertain, ranges decide.",
         declarations: "
             // So many tests of a leaf, before ranges are tried.
-            const LOOKS: u32
-            fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook
+            const MOST_TESTS: u32
+            // By one walk along the balls near.
+            fn polynomial_test(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> TestResult
         ",
     },
     Interface {
@@ -194,9 +207,12 @@ pub const INTERFACES: &[Interface] = &[
         declarations: "
             // Whether a ray can be searched without the array.
             fn can_search() -> bool
-            // Searches from the position to the limit, at first in an interval of a width.
-            fn search_crowd(head: u32, direction: vec3<f32>, limit: f32, position: ptr<function, f32>, \
-                            width: ptr<function, f32>) -> f32
+            // Searches from the position to the limit, at first in an interval of a width, scene units; 0: as
+            // long as the first ball's radius. Returns the first root; or NO_ROOT, with the position as far
+            // as was searched: short of the limit where the budget is spent, to be resumed with the width
+            // that is left.
+            fn search_without_array(head: u32, direction: vec3<f32>, limit: f32, \
+                                    position: ptr<function, f32>, width: ptr<function, f32>) -> f32
         ",
     },
     Interface {
@@ -222,7 +238,7 @@ pub const INTERFACES: &[Interface] = &[
     },
     Interface {
         folder: "kanamori_peel/clipping",
-        purpose: "Bézier clipping (section 5.4).",
+        purpose: "The root of a curve by Bézier clipping.",
         declarations: "
             // The first point of [0, 1] at which a curve is not negative; NO_ROOT, or LOST.
             fn first_root(whole: Curve) -> f32

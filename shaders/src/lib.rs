@@ -9,7 +9,7 @@
 //!
 //! What no entry point reaches is left out: a binding that a variant does not use does not exist.
 //!
-//! naga_oil asks that names in imported modules neither end in a digit nor be keywords of another
+//! naga_oil requires that names in imported modules neither end in a digit nor be keywords of another
 //! shading language.
 //!
 //! ```

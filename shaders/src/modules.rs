@@ -56,6 +56,7 @@ macro_rules! import {
 pub const MODULES: &[Module] = &[
     // What all methods share.
     import!("core/view"),
+    import!("core/ray"),
     import!("core/make_ray"),
     entry!("core/rays"),
     import!("core/hit"),
@@ -64,8 +65,10 @@ pub const MODULES: &[Module] = &[
     import!("core/kernel_read"),
     import!("core/powers"),
     import!("core/field"),
+    import!("core/nearby_origin"),
     import!("core/cover"),
-    import!("core/beside"),
+    import!("core/tiles"),
+    import!("core/prefix_sum"),
     import!("core/srgb"),
     import!("core/color_record"),
     import!("core/work_record"),
@@ -87,6 +90,7 @@ pub const MODULES: &[Module] = &[
     import!("work/counted"),
     // Arbitrary rays.
     import!("batch/free_ray"),
+    import!("batch/queried"),
     import!("batch/list"),
     entry!("batch/list_rays"),
     import!("ray/primary"),
@@ -121,7 +125,7 @@ pub const MODULES: &[Module] = &[
     entry!("light/add_sample"),
     // The crate fbvh.
     import!("fbvh/structure"),
-    import!("fbvh/suspend"),
+    import!("fbvh/budget"),
     import!("fbvh/relative_ray"),
     import!("fbvh/projection"),
     import!("fbvh/near_balls"),
@@ -131,8 +135,10 @@ pub const MODULES: &[Module] = &[
     import!("fbvh/test_result"),
     import!("fbvh/polynomial_test/quartic"),
     import!("fbvh/polynomial_test/none"),
+    import!("fbvh/leaf_outcome"),
     import!("fbvh/leaf/published"),
     import!("fbvh/leaf/certified"),
+    import!("fbvh/suspended"),
     entry!("fbvh/trace"),
     // The crate illes-fraglist.
     import!("illes_fraglist/balls"),
@@ -149,7 +155,6 @@ pub const MODULES: &[Module] = &[
     import!("illes_fraglist/piece/exact"),
     import!("illes_fraglist/overlap/printed"),
     import!("illes_fraglist/overlap/searched"),
-    import!("illes_fraglist/prefix"),
     import!("illes_fraglist/tiles"),
     entry!("illes_fraglist/radix"),
     entry!("illes_fraglist/cores"),

@@ -206,13 +206,13 @@ fn on_one_line(text: &str) -> String {
 }
 
 /// Every file of an interface declares what the table says, and a folder is either an interface, with a
-/// choice of files, or a place for modules of their own.
+/// choice of files, or holds modules of their own.
 #[test]
 fn files_of_an_interface_declare_what_it_says() {
     for interface in INTERFACES {
         let modules = implementations(interface);
         assert!(modules.len() > 1, "{}: no choice", interface.folder);
-        assert!(interface.declared().next().is_some(), "{}: says nothing", interface.folder);
+        assert!(interface.declared().next().is_some(), "{}: declares nothing", interface.folder);
         for module in modules {
             let source = on_one_line(module.source);
             for declaration in interface.declared() {
@@ -249,7 +249,7 @@ fn unknown_names_are_named() {
 fn layouts_are_reflected() {
     let variant = Variant::trials().next().expect("there are variants");
     let module = compose("core/view", &variant).expect("composes");
-    let layout = struct_layout(&module, "Ray").expect("core/view has rays");
+    let layout = struct_layout(&module, "PrimaryRay").expect("core/view has rays");
     let members = [("direction".to_owned(), 0), ("t_max".to_owned(), 12)];
     assert_eq!((layout.members.as_slice(), layout.size), (&members[..], 16));
     assert_eq!(struct_layout(&module, "Nonsense"), None);

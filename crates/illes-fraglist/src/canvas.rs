@@ -12,7 +12,7 @@ use crate::lists::Lists;
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(crate) struct Progress {
     pub(crate) stage: u32,
-    pub(crate) place: u32,
+    pub(crate) node: u32,
     pub(crate) position: f32,
     pub(crate) fallback: u32,
 }
@@ -152,7 +152,7 @@ mod tests {
     fn progress_is_that_of_the_shader() {
         let spec = Specialization::without_balls().choosing(Piece::Cubic.modules());
         let module = compose("illes_fraglist/cast", &spec.variant()).expect("composes");
-        let progress = host_layout!(Progress { stage, place, position, fallback });
+        let progress = host_layout!(Progress { stage, node, position, fallback });
         assert_eq!(struct_layout(&module, "Progress"), Some(progress));
     }
 }

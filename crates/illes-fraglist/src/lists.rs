@@ -19,7 +19,7 @@ pub(crate) struct Node {
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(crate) struct PoolHead {
     /// Nodes requested, also beyond the capacity.
-    pub(crate) asked: u32,
+    pub(crate) requested: u32,
     /// Rays that hit at a core.
     pub(crate) core_hits: u32,
 }
@@ -86,7 +86,7 @@ impl Lists {
             gpu.queue.submit([encoder.finish()]);
         })?;
         let head = gpu.read::<PoolHead>(&copy)?[0];
-        Ok(ListStats { nodes: head.asked, core_hits: head.core_hits })
+        Ok(ListStats { nodes: head.requested, core_hits: head.core_hits })
     }
 }
 
@@ -104,7 +104,7 @@ mod tests {
         let module = compose("illes_fraglist/cast", &spec.variant()).expect("composes");
         assert_eq!(struct_layout(&module, "Node"), Some(host_layout!(Node { rank, next })));
         let pool = struct_layout(&module, "Pool").expect("lists.wgsl has a pool");
-        let head = host_layout!(PoolHead { asked, core_hits });
+        let head = host_layout!(PoolHead { requested, core_hits });
         assert_eq!(pool.members[..2], head.members[..]);
         assert_eq!(pool.members[2], ("nodes".to_owned(), head.size));
     }

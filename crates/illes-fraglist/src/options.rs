@@ -53,16 +53,16 @@ pub struct Options {
 }
 
 /// The largest [`Options::array_capacity`], and the default: separators of a ray's local array as it is
-/// compiled, `MOST` of `shaders/wgsl/illes_fraglist/records.wgsl`. Section 6 has "surely less than 100";
-/// a ball has three.
+/// compiled, `ARRAY_CAPACITY` of `shaders/wgsl/illes_fraglist/records.wgsl`. Section 6 has "surely less
+/// than 100"; a ball has three.
 pub const ARRAY_CAPACITY: u32 = 96;
 
 /// The most balls that a ray may meet before its core: walks along its list must stay within the
-/// iterations of software Vulkan. `LONGEST_LIST` of `shaders/wgsl/illes_fraglist/budget.wgsl`.
+/// iterations of software Vulkan. `LIST_CAPACITY` of `shaders/wgsl/illes_fraglist/budget.wgsl`.
 pub const LIST_CAPACITY: u32 = 6_144;
 
 /// The most balls over a tile of the picture with [`Gather::Tiles`], bounded as [`LIST_CAPACITY`] is.
-/// `MOST_ENTRIES` of `shaders/wgsl/illes_fraglist/collect.wgsl`.
+/// `TILE_CAPACITY` of `shaders/wgsl/illes_fraglist/collect.wgsl`.
 pub const TILE_CAPACITY: u32 = 120_000;
 
 /// How far behind the root of a piece a hit may be, in parts of the piece between two separators,

@@ -47,11 +47,11 @@ pub(crate) use self::buffers::{Entry, State};
 use self::buffers::{SearchBuffers, search_layout};
 
 /// The most balls whose supports may reach one interval of a ray: one walk along them must stay within
-/// the iterations of software Vulkan. `MOST_WINDOW` of `shaders/wgsl/kanamori_robust/search.wgsl`.
+/// the iterations of software Vulkan. `INTERVAL_CAPACITY` of `shaders/wgsl/kanamori_robust/search.wgsl`.
 pub const INTERVAL_CAPACITY: u32 = 8_192;
 
 /// The most balls over a tile of 16 × 16 pixels, bounded by the iterations that sorting them takes.
-/// `MOST_ENTRIES` of `shaders/wgsl/kanamori_robust/lists.wgsl`.
+/// `TILE_CAPACITY` of `shaders/wgsl/kanamori_robust/lists.wgsl`.
 pub const TILE_CAPACITY: u32 = 131_072;
 
 /// Entries of all tiles that the first buffers hold: 2 MB.

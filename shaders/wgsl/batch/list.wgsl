@@ -1,4 +1,4 @@
-// Which rays of a batch ask a question, as batch/list_rays.wgsl leaves them: by pixel, near ones near each other.
+// Which rays of a batch have a query, as batch::list_rays leaves them: by pixel, near ones near each other.
 
 // Begins with the workgroups of an indirect dispatch along the list, 64 rays each. Twin of `ListHead` in
 // metaball-core.
@@ -13,7 +13,7 @@ struct Listed {
 // Most workgroups in a row of that dispatch.
 const ACROSS: u32 = 32768u;
 
-// The place in the list of an invocation of such a dispatch.
-fn place_of(group: vec3<u32>, index: u32) -> u32 {
+// The list's index for an invocation of such a dispatch.
+fn index_in_list(group: vec3<u32>, index: u32) -> u32 {
     return 64u * (ACROSS * group.y + group.x) + index;
 }

@@ -1,4 +1,4 @@
-// A scene with colours: each ball's counts by its share of the field. Blended in linear light.
+// A scene with colours. They are blended in linear light.
 
 #import core::color_record::color_of_pixel
 #import core::srgb::{decode, encode}
@@ -14,7 +14,6 @@ fn blend_start() {
     blended_weight = 0.0;
 }
 
-// `weight` is what the ball adds to the field at the hit.
 fn blend_add(ball: u32, weight: f32) {
     blended += weight * decode(unpack4x8unorm(ball_colors[ball]).rgb);
     blended_weight += weight;

@@ -55,7 +55,7 @@ fn tangents(center: vec2<f32>, radius: f32, half: f32) -> vec2<f32> {
     let low = vec2(center.x * along - center.y * radius, center.y * along + center.x * radius);
     let high = vec2(center.x * along + center.y * radius, center.y * along - center.x * radius);
     let margin = 2.0 * PIXEL_MARGIN * view.half_pixel;
-    // A circle beside the origin has one tangent that points backwards and bounds nothing ahead.
+    // A circle level with the origin has one tangent that points backwards and bounds nothing ahead.
     var range = vec2(-half, half);
     if center.y > radius || center.x > 0.0 {
         range.x = slope(low, half) - margin;
@@ -66,7 +66,7 @@ fn tangents(center: vec2<f32>, radius: f32, half: f32) -> vec2<f32> {
     return clamp(range, vec2(-half), vec2(half));
 }
 
-// How far aside a direction leads for each unit ahead; out of the picture where that is beyond it.
+// How far a direction leads sideways for each unit ahead; a bound outside of the picture where that is outside.
 fn slope(direction: vec2<f32>, half: f32) -> f32 {
     let outside = 2.0 * half;
     if abs(direction.x) >= outside * direction.y {

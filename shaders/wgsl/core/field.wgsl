@@ -1,4 +1,4 @@
-// One ball's part of the field at a point, from the point's offset to the ball's centre.
+// One ball's part of the field at a point, from the point's offset to the ball's centre, and the normal.
 //
 // Offsets are formed as (eye - centre) + t * direction. The first difference has the size of the
 // distance between eye and ball; forming the point first would round at the size of the world.
@@ -24,4 +24,11 @@ fn contribution(ball: u32, v: f32) -> f32 {
 // What the ball adds to the field's gradient, 1/scene unit.
 fn gradient(ball: u32, v: f32, offset: vec3<f32>, radius: f32) -> vec3<f32> {
     return (strength(ball) * kernel_slope(v) * -2.0 / (radius * radius)) * offset;
+}
+
+// The unit normal out of the solid, from the field's gradient. Where the field is flat, as at a lone
+// centre, the surface faces the ray.
+fn outward_normal(gradient: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
+    let steepness = length(gradient);
+    return select(-direction, -gradient / steepness, steepness > 0.0);
 }

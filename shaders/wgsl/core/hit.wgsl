@@ -17,7 +17,7 @@ const INSIDE: u32 = 2u;
 const UNDECIDED: u32 = 3u;
 // Added where a published rule for trouble made the pixel.
 const FALLBACK: u32 = 256u;
-// What a frame begins with: reads as undecided, so a pixel that no pass wrote is never a miss.
+// What a frame begins with: it counts as undecided, so a pixel that no pass wrote is never a miss.
 const NOTHING: u32 = 255u;
 
 @group(0) @binding(2) var<storage, read_write> hits: array<Hit>;
@@ -32,9 +32,9 @@ fn write_hit(pixel: u32, t: f32, normal: vec3<f32>, status: u32) {
     hits[pixel] = Hit(fold(normal), t, status);
 }
 
-// The same from where rays go on: `clearance` is what a ray's start must keep from the hit, along
-// the normal, to be on the side of the surface that it leaves on. Scene units, not negative. The upper
-// 23 bits of the float are kept, rounded up.
+// The same where secondary rays may start: `clearance` is what a start must keep from the hit, along the
+// normal, to be certainly on its side of the surface. Scene units, not negative. The upper 23 bits of the
+// float are kept, rounded up.
 fn write_hit_with_clearance(pixel: u32, t: f32, normal: vec3<f32>, status: u32, clearance: f32) {
     let upper = (bitcast<u32>(clearance) + 511u) & ~511u;
     hits[pixel] = Hit(fold(normal), t, status | upper);

@@ -1,4 +1,4 @@
-// Which kernel a scene has, where a shader is not compiled for it.
+// The kernel of the scene, for shaders that are not compiled for one.
 
 // Twin of `KernelRead` in metaball-core.
 struct KernelRead {

@@ -1,10 +1,10 @@
-// How a frame says that it is not whole.
+// How a frame reports that it is incomplete.
 
 // Twin of `FrameStatus` in metaball-core; zeros when the frame begins.
 struct Status {
     // Rays or pixels without a final answer; 0: the frame is complete.
     unfinished: atomic<u32>,
-    // Largest room asked for; the method names the slots.
+    // Largest capacity that was needed; the method defines the slots.
     needed: array<atomic<u32>, 4>,
 }
 

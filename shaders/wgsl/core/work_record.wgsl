@@ -6,15 +6,15 @@ struct Work {
     nodes: u32,
     // Intersection tests between the ray and a leaf, layer or interval.
     leaf_tests: u32,
-    // Balls looked at.
+    // Balls visited.
     balls: u32,
     // Evaluations of one ball's kernel.
     evaluations: u32,
     // Steps of a root finder.
     iterations: u32,
-    // Peeled layers or list entries gone through.
+    // Peeled layers, or entries of a list.
     layers: u32,
-    // Interior nodes on the longest way that was gone down from a tree's root.
+    // Interior nodes on the longest path from a tree's root that was followed.
     depth: u32,
     // Most steps of a root finder in one search.
     longest_search: u32,

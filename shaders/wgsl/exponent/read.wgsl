@@ -2,7 +2,6 @@
 
 #import core::kernel_read::kernel_read
 
-// alpha of a power kernel, from 1 to 8.
 fn exponent() -> u32 {
     return kernel_read.exponent;
 }

@@ -1,4 +1,4 @@
-// What a certified search knows of the excess on an interval of a ray: made by rises.wgsl and falls.wgsl.
+// What is certain of the excess on an interval of a ray.
 
 struct Bounds {
     // The excess is nowhere more than this.

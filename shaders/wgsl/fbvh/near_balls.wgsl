@@ -1,17 +1,18 @@
-// The list of the leaf that is searched, and which of its balls reach the ray's stretch in the leaf: a bit
-// each, so that of all walks along the list only the first sees those that do not. A walk goes through the
-// words, and in each through its bits. Of a list longer than the words all balls count as near, and of one so
-// short that a first walk saves nothing.
+// The list of the leaf that is searched, and which of its balls are near: reach the ray's interval in the
+// leaf. A bit each, so that of all walks along the list only the first visits those that do not. A walk goes
+// through the words, and in each through its bits. Of a list longer than the words all balls count as near,
+// and of one so short that a first walk saves nothing.
 
-#import fbvh::relative_ray::{Frame, UNIT}
+#import core::nearby_origin::UNIT
+#import fbvh::budget::spent
 #import fbvh::projection::{greatest_depth, project}
+#import fbvh::relative_ray::RelativeRay
 #import fbvh::structure::lists
-#import fbvh::suspend::spent
 #import kernel::kernel
 #import work::count_evaluations
 
 const WORDS: u32 = 8u;
-
+// Balls of the shortest list that has its bits.
 const SHORTEST: u32 = 5u;
 
 // The list's first entry, and one past its last.
@@ -21,13 +22,13 @@ var<private> end: u32;
 var<private> count: u32;
 var<private> near: array<u32, WORDS>;
 
-// Takes up a list and, where it is noted, walks along it. Returns what the field is nowhere on
-// the stretch more than.
-fn gather(frame: Frame, direction: vec3<f32>, list_first: u32, list_end: u32) -> f32 {
+// Begins with a list and, where it has bits, walks along it. Returns an upper bound of the field on the
+// interval.
+fn gather(ray: RelativeRay, direction: vec3<f32>, list_first: u32, list_end: u32) -> f32 {
     first = list_first;
     end = list_end;
     count = end - first;
-    if !is_noted() {
+    if !has_bits() {
         return 1e38;
     }
     count_evaluations(count);
@@ -41,8 +42,8 @@ fn gather(frame: Frame, direction: vec3<f32>, list_first: u32, list_end: u32) ->
         var bits = 0u;
         var entry = word_first;
         loop {
-            let seen = project(frame, direction, lists[entry]);
-            let v = greatest_depth(seen, frame.enter, frame.leave);
+            let seen = project(ray, direction, lists[entry]);
+            let v = greatest_depth(seen, ray.enter, ray.leave);
             bits |= u32(v > 0.0) << (entry - word_first);
             most += seen.weight * kernel(v);
             entry++;
@@ -57,16 +58,16 @@ fn gather(frame: Frame, direction: vec3<f32>, list_first: u32, list_end: u32) ->
             break;
         }
     }
-    return most * (1.0 + summing());
+    return most * (1.0 + sum_error());
 }
 
-// A sum over the balls that are near, each term of a few products, errs by less than this part of what
-// the terms come to without their signs.
-fn summing() -> f32 {
+// A sum over the balls near, each term of a few products, errs by less than this part of the terms' sum
+// without their signs.
+fn sum_error() -> f32 {
     return f32(count + 16u) * UNIT;
 }
 
-// Iterations of a walk along what is near.
+// Iterations of a walk along the balls near.
 fn walk_length() -> u32 {
     return count + words() + 1u;
 }
@@ -81,16 +82,16 @@ fn words() -> u32 {
     return (end - first + 31u) / 32u;
 }
 
-// A bit for each ball near of those of a word, the first in the lowest.
+// A bit for each of a word's balls that is near, the first in the lowest.
 fn near_in(word: u32) -> u32 {
-    if is_noted() {
+    if has_bits() {
         return near[word];
     }
     return 0xffffffffu >> (32u - min(end - first - 32u * word, 32u));
 }
 
 // Whether there is a bit for each ball of the list.
-fn is_noted() -> bool {
+fn has_bits() -> bool {
     let length = end - first;
     return SHORTEST <= length && length <= 32u * WORDS;
 }

@@ -1,13 +1,14 @@
-// A ball as a ray in a leaf sees it: where along the ray its centre is, how deep in its support the ray
-// runs, and how far rounding can move that. What all certified searches of a leaf share.
+// A ball relative to a ray in a leaf: where along the ray its centre is, how deep in its support the ray
+// runs, and how far rounding can move that.
 
-#import fbvh::relative_ray::{Frame, UNIT}
+#import core::nearby_origin::{relative_to, UNIT}
+#import fbvh::relative_ray::RelativeRay
 #import kernel::{kernel_slope, steepest_slope}
 #import strength::strength
 #import support::support_of
 
 struct Projection {
-    // The local t nearest to the centre, and the square of the ray's distance from the centre there.
+    // The relative t nearest to the centre, and the square of the ray's distance from the centre there.
     middle: f32,
     off_square: f32,
     radius: f32,
@@ -20,16 +21,16 @@ struct Projection {
     misplaced: f32,
 }
 
-fn project(frame: Frame, direction: vec3<f32>, ball: u32) -> Projection {
+fn project(ray: RelativeRay, direction: vec3<f32>, ball: u32) -> Projection {
     let support = support_of(ball);
-    let offset = (support.center - frame.center) - frame.origin;
+    let offset = relative_to(ray.origin, support.center);
     let middle = dot(offset, direction);
     let off_axis = offset - middle * direction;
     let inverse_radius = 1.0 / support.radius;
     return Projection(
         middle, dot(off_axis, off_axis),
         support.radius, inverse_radius, inverse_radius * inverse_radius, strength(ball),
-        6.0 * UNIT * length(offset) + 1.05 * frame.misplaced,
+        6.0 * UNIT * length(offset) + 1.05 * ray.origin.misplaced,
     );
 }
 
@@ -75,11 +76,11 @@ fn depth_margin(seen: Projection, s: f32) -> f32 {
 }
 
 // On an interval with these depths the kernel's derivative times `way`, which may be misplaced, is nowhere
-// less than this when a sum errs by such a part of its terms: each factor is bounded. What a ball falls
+// less than this, for a sum that errs by such a part of its terms: each factor is bounded. What a ball falls
 // within the misplaced part of its way is the square of that, and within the margin of v. Twin:
 // least_product of crates/fbvh/src/trace/certified/ranges.rs.
-fn least_product(seen: Projection, v: Depths, way: f32, doubt: f32) -> f32 {
-    let gentlest = min(kernel_slope(v.least), kernel_slope(v.most)) * (1.0 - doubt);
-    let steepest = steepest_slope(v.least, v.most) * (1.0 + doubt);
+fn least_product(seen: Projection, v: Depths, way: f32, sum_error: f32) -> f32 {
+    let gentlest = min(kernel_slope(v.least), kernel_slope(v.most)) * (1.0 - sum_error);
+    let steepest = steepest_slope(v.least, v.most) * (1.0 + sum_error);
     return select(steepest * (way - seen.misplaced), gentlest * max(way - seen.misplaced, 0.0), way >= 0.0);
 }

@@ -1,20 +1,19 @@
-// What a look at the field along an interval of a ray in a leaf has come to: made by quartic.wgsl, or
-// by no_look.wgsl, which never tells anything.
+// The result of a polynomial test of an interval of a ray in a leaf.
 
-// Outcomes. Nothing certain.
-const UNCLEAR: u32 = 0u;
+// Outcomes. Nothing is certain.
+const UNCERTAIN: u32 = 0u;
 // The field stays below T.
 const BELOW: u32 = 1u;
 // The field reaches T once, and is above it at the end.
 const ONCE: u32 = 2u;
-// The field is above T at `high`: told only where any hit will do.
+// The field is above T at `high`: only where any hit suffices.
 const ABOVE: u32 = 3u;
 
-struct Outlook {
+struct TestResult {
     outcome: u32,
-    // Where to look next, if it is unclear: the field does not reach T before `low`.
+    // The interval that is left, if it is uncertain: the field does not reach T before `low`.
     low: f32,
     high: f32,
-    // If once: where, nearly.
+    // If once: about where.
     guess: f32,
 }

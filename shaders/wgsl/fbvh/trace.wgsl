@@ -1,15 +1,17 @@
 // Traces rays through a tree: the modified BVH or the Fitted BVH of Gourmel et al. 2010, or the certified
-// tree. `trace` starts every ray, `resume` goes on with those that had to wait. Where rays come from, and
-// what they ask, is chosen by ray/primary.wgsl or ray/free.wgsl.
+// tree. `trace` starts every ray, `resume` continues those that were suspended.
 
 #import color::{blend_add, blend_start, blend_write}
-#import fbvh::leaf
-#import fbvh::structure
-#import fbvh::suspend
-#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::field::{contribution, depth_below_rim, gradient, offset_at, outward_normal}
 #import core::hit
+#import core::ray::{Ray, NO_PIXEL}
+#import fbvh::budget
+#import fbvh::leaf
+#import fbvh::leaf_outcome
+#import fbvh::structure
+#import fbvh::suspended
 #import kernel::kernel_slope
-#import ray::{any_will_do, goes_on, pixel_of, ray_of, Ray, NOBODY}
+#import ray::{any_hit_suffices, needs_clearance, pixel_of, ray_of}
 #import strength::strength
 #import support::support_of
 #import work::{come_back_to, count_node, go_down, leave_for_later, write_work}
@@ -17,24 +19,24 @@
 // The tree's root: a node, a leaf, or EMPTY.
 @id(21) override root: u32 = 0xffffffffu;
 
-// Depth is bounded when a tree is built: MAX_DEPTH of crates/fbvh/src/node.rs.
+// Depth is bounded when a tree is built. Twin: MAX_DEPTH of crates/fbvh/src/node.rs.
 const MAX_DEPTH: u32 = 64u;
 
-// Subtrees still to be visited; and where the ray enters them, unless the first hit ends it: until then
-// nothing is nearer.
+// Subtrees still to be visited; and where the ray enters them, unless the first hit ends it: until then nothing
+// is nearer.
 var<private> stack: array<u32, MAX_DEPTH>;
 var<private> enters: array<f32, MAX_DEPTH>;
 var<private> depth: u32;
 
-// The nearest hit so far. Where there is none, `best_status` is MISS, or UNDECIDED if a leaf had
-// doubts, and `best_t` the ray's end; but on the way out, once a leaf is LEAVING, where that is: what the ray
-// enters behind it cannot be what lets it stay.
+// The nearest hit so far. Where there is none, `best_status` is MISS, or UNDECIDED if a leaf was UNCERTAIN,
+// and `best_t` the ray's end; but on the search for an exit, once a leaf had it AT_FACE, where that is: a leaf
+// that the ray enters behind it cannot be the one that begins there.
 var<private> best_t: f32;
 var<private> best_leaf: u32;
 var<private> best_status: u32;
 
-fn push(place: u32, enter: f32) {
-    stack[depth] = place;
+fn push(reference: u32, enter: f32) {
+    stack[depth] = reference;
     leave_for_later(depth);
     if !leaf::first_hit_ends() {
         enters[depth] = enter;
@@ -46,7 +48,7 @@ fn push(place: u32, enter: f32) {
 fn pop() -> u32 {
     while depth > 0u {
         depth--;
-        suspend::spent++;
+        budget::spent++;
         if leaf::first_hit_ends() || enters[depth] < best_t {
             come_back_to(depth);
             return stack[depth];
@@ -60,153 +62,154 @@ fn children_of(node: structure::Node, ray: Ray, inverse: vec3<f32>) -> structure
     return structure::children_along(node, ray, inverse, parted);
 }
 
-// Walks from the root to a place where the ray waited, and pushes what was left to visit after it.
-fn descend(place: u32, ray: Ray, inverse: vec3<f32>) {
+// Walks from the root to where the ray was suspended, and pushes what was left to visit after it.
+fn descend(reference: u32, ray: Ray, inverse: vec3<f32>) {
     var current = root;
-    while current != place {
-        suspend::spent++;
+    while current != reference {
+        budget::spent++;
         go_down();
         let node = structure::nodes[current];
         let children = children_of(node, ray, inverse);
-        current = select(node.right, node.left, structure::is_below_left(node, place));
+        current = select(node.right, node.left, structure::is_below_left(node, reference));
         if current == children.near && children.far != structure::EMPTY {
             push(children.far, children.far_enter);
         }
     }
 }
 
-// Where the ray passes through a leaf; asked on the way out alone.
-fn passage(index: u32, ray: Ray, inverse: vec3<f32>) -> structure::Stretch {
+// The part of the ray in a leaf.
+fn interval_in(index: u32, ray: Ray, inverse: vec3<f32>) -> structure::Interval {
     let box = structure::leaves[index];
     return structure::through_box(box.min, box.max, ray, inverse);
 }
 
-// Visits places from `start` on until the ray is done. Returns the place to wait at, EMPTY when the
-// ray is finished.
+// Visits nodes and leaves from `start` on until the ray is done. Returns where to resume; EMPTY when the ray
+// is finished.
 fn traverse(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
-    var place = start;
+    var reference = start;
     loop {
-        // To the next leaf: rays side by side come to theirs before any of them searches it.
+        // To the next leaf: rays side by side reach theirs before any of them searches it.
         loop {
-            if (place & structure::LEAF) == 0u {
-                if !suspend::can_go_on() {
-                    return place;
+            if (reference & structure::LEAF) == 0u {
+                if !budget::can_continue() {
+                    return reference;
                 }
-                suspend::spent++;
+                budget::spent++;
                 count_node();
                 go_down();
-                let node = structure::nodes[place];
+                let node = structure::nodes[reference];
                 let children = children_of(node, ray, inverse);
                 if children.far != structure::EMPTY && children.far_enter < best_t {
                     push(children.far, children.far_enter);
                 }
-                place = children.near;
-                if place == structure::EMPTY || children.near_enter >= best_t {
-                    place = pop();
+                reference = children.near;
+                if reference == structure::EMPTY || children.near_enter >= best_t {
+                    reference = pop();
                 }
             }
-            if (place & structure::LEAF) != 0u {
+            if (reference & structure::LEAF) != 0u {
                 break;
             }
         }
-        if place == structure::EMPTY || !suspend::can_go_on() {
+        if reference == structure::EMPTY || !budget::can_continue() {
             break;
         }
-        suspend::spent++;
-        let index = place & ~structure::LEAF;
-        if leaf::seeks_way_out() && passage(index, ray, inverse).enter >= best_t {
-            place = pop();
+        budget::spent++;
+        let index = reference & ~structure::LEAF;
+        if leaf::seeks_exit() && interval_in(index, ray, inverse).enter >= best_t {
+            reference = pop();
             continue;
         }
         let outcome = leaf::search_leaf(ray, inverse, index);
-        if outcome == leaf::WAITING {
-            return place;
+        if outcome == leaf_outcome::WAITING {
+            return reference;
         }
-        // On the way out, a leaf that goes on behind the end of another tells what that left open.
-        if leaf::seeks_way_out() && outcome != leaf::UNMET && passage(index, ray, inverse).leave > best_t {
+        // A leaf that continues behind the face of another decides what that left open.
+        if leaf::seeks_exit() && outcome != leaf_outcome::UNMET
+            && interval_in(index, ray, inverse).leave > best_t {
             best_t = ray.t_max;
         }
-        if outcome == leaf::LEAVING {
-            best_t = leaf::search.high;
+        if outcome == leaf_outcome::AT_FACE {
+            best_t = leaf::hit_t();
             best_leaf = index;
         }
-        if outcome == leaf::BRACKETED {
+        if outcome == leaf_outcome::BRACKETED {
             best_leaf = index;
             return structure::EMPTY;
         }
-        // Where any hit will do, it may have been seen at the very end of the ray.
-        if outcome == leaf::FOUND && (leaf::search.high < best_t || any_will_do()) {
-            best_t = min(leaf::search.high, best_t);
+        // Where any hit suffices, it may be at the very end of the ray.
+        if outcome == leaf_outcome::FOUND && (leaf::hit_t() < best_t || any_hit_suffices()) {
+            best_t = min(leaf::hit_t(), best_t);
             best_leaf = index;
-            best_status = leaf::status_found();
-            if leaf::first_hit_ends() || any_will_do() {
+            best_status = leaf::hit_status();
+            if leaf::first_hit_ends() || any_hit_suffices() {
                 return structure::EMPTY;
             }
         }
-        if outcome == leaf::DOUBTED {
+        if outcome == leaf_outcome::UNCERTAIN {
             best_status = hit::UNDECIDED;
         }
-        leaf::search.stage = leaf::ENTER;
-        place = pop();
-        if place == structure::EMPTY {
+        leaf::reset();
+        reference = pop();
+        if reference == structure::EMPTY {
             break;
         }
     }
-    return place;
+    return reference;
 }
 
-// Follows the ray from `start` to its answer. Returns the place to wait at, EMPTY when it is finished.
+// Follows the ray from `start` to its answer. Returns where to resume; EMPTY when it is finished.
 fn follow(start: u32, ray: Ray, inverse: vec3<f32>) -> u32 {
-    let place = traverse(start, ray, inverse);
-    if place != structure::EMPTY {
-        return place;
+    let reference = traverse(start, ray, inverse);
+    if reference != structure::EMPTY {
+        return reference;
     }
-    if is_leaving(ray) && !leaf::take_up_way_out(ray, inverse, best_leaf) {
+    if exits_at_face(ray) && !leaf::bracket_exit(ray, inverse, best_leaf) {
         return structure::LEAF | best_leaf;
     }
     if !leaf::is_bracketed() {
         return structure::EMPTY;
     }
-    if leaf::close_in(ray, inverse, best_leaf) == leaf::WAITING {
+    if leaf::close_in(ray, inverse, best_leaf) == leaf_outcome::WAITING {
         return structure::LEAF | best_leaf;
     }
-    if leaf::search.high < best_t {
-        best_t = leaf::search.high;
-        best_status = leaf::status_found();
+    if leaf::hit_t() < best_t {
+        best_t = leaf::hit_t();
+        best_status = leaf::hit_status();
     }
     return structure::EMPTY;
 }
 
-// Whether the ray has left the solid at the end of a leaf: none begins there.
-fn is_leaving(ray: Ray) -> bool {
-    return leaf::seeks_way_out() && !leaf::is_bracketed() && best_status == hit::MISS && best_t < ray.t_max;
+// Whether the ray has left the solid at the far face of a leaf: no other begins there.
+fn exits_at_face(ray: Ray) -> bool {
+    return leaf::seeks_exit() && !leaf::is_bracketed() && best_status == hit::MISS && best_t < ray.t_max;
 }
 
 // Whether a point is in the box of a leaf, faces included. Where it is in none, the field is below T.
 fn is_in_leaf(point: vec3<f32>) -> bool {
-    var place = root;
-    while place != structure::EMPTY {
-        suspend::spent++;
-        if (place & structure::LEAF) != 0u {
-            let box = structure::leaves[place & ~structure::LEAF];
+    var reference = root;
+    while reference != structure::EMPTY {
+        budget::spent++;
+        if (reference & structure::LEAF) != 0u {
+            let box = structure::leaves[reference & ~structure::LEAF];
             if is_between(point, box.min, box.max) {
                 depth = 0u;
                 return true;
             }
-            place = structure::EMPTY;
+            reference = structure::EMPTY;
         } else {
-            let node = structure::nodes[place];
+            let node = structure::nodes[reference];
             let is_left = is_between(point, node.left_min, node.left_max);
             let is_right = is_between(point, node.right_min, node.right_max);
             if is_left && is_right {
                 stack[depth] = node.right;
                 depth++;
             }
-            place = select(select(structure::EMPTY, node.right, is_right), node.left, is_left);
+            reference = select(select(structure::EMPTY, node.right, is_right), node.left, is_left);
         }
-        if place == structure::EMPTY && depth > 0u {
+        if reference == structure::EMPTY && depth > 0u {
             depth--;
-            place = stack[depth];
+            reference = stack[depth];
         }
     }
     return false;
@@ -226,13 +229,13 @@ fn write(pixel: u32, ray: Ray) {
         hit::write_hit(pixel, 0.0, -ray.direction, hit::UNDECIDED);
         return;
     }
-    if any_will_do() {
+    if any_hit_suffices() {
         hit::write_hit(pixel, best_t, -ray.direction, best_status);
         return;
     }
     var slope = vec3(0.0);
     // How far the field at the hit can be from T, and the least radius around.
-    var doubt = leaf::residual();
+    var error = leaf::residual();
     var smallest = 1e38;
     blend_start();
     let found = structure::leaves[best_leaf];
@@ -245,9 +248,9 @@ fn write(pixel: u32, ray: Ray) {
         let v = depth_below_rim(offset, support.radius);
         slope += gradient(ball, v, offset, support.radius);
         blend_add(ball, contribution(ball, v));
-        if goes_on() && v > 0.0 {
+        if needs_clearance() && v > 0.0 {
             let moved = leaf::depth_error(found, ray, best_t, offset, support.radius);
-            doubt += strength(ball) * kernel_slope(v) * moved;
+            error += strength(ball) * kernel_slope(v) * moved;
             smallest = min(smallest, support.radius);
         }
         entry++;
@@ -256,22 +259,20 @@ fn write(pixel: u32, ray: Ray) {
         }
     }
     blend_write(pixel);
-    // Where the field is flat, as at a lone centre, the surface faces the ray.
-    let steepness = length(slope);
-    let normal = select(-ray.direction, -slope / steepness, steepness > 0.0);
-    if !goes_on() {
+    let normal = outward_normal(slope, ray.direction);
+    if !needs_clearance() {
         hit::write_hit(pixel, best_t, normal, best_status);
         return;
     }
-    let clearance = clearance(ray, doubt, steepness, smallest);
+    let clearance = clearance(ray, error, length(slope), smallest);
     hit::write_hit_with_clearance(pixel, best_t, normal, best_status, clearance);
 }
 
-// What a start beside the hit must keep from it, along the normal: see "Secondary rays" in
+// What the start of a secondary ray must keep from the hit, along the normal: derived in
 // crates/fbvh/src/gpu/mod.rs.
-fn clearance(ray: Ray, doubt: f32, steepness: f32, smallest: f32) -> f32 {
-    let flattest = max(steepness, doubt / (smallest * 0x1p-10f));
-    return 4.0 * doubt / max(flattest, 1e-37) + rounding_at(ray, best_t);
+fn clearance(ray: Ray, error: f32, steepness: f32, smallest: f32) -> f32 {
+    let flattest = max(steepness, error / (smallest * 0x1p-10f));
+    return 4.0 * error / max(flattest, 1e-37) + rounding_at(ray, best_t);
 }
 
 // Four times what rounding may do to the point of a ray at t.
@@ -286,13 +287,13 @@ fn trace(
     @builtin(local_invocation_index) index: u32,
 ) {
     let pixel = pixel_of(group, index);
-    if pixel == NOBODY {
+    if pixel == NO_PIXEL {
         return;
     }
     let ray = ray_of(pixel);
     let inverse = structure::inverse(ray.direction);
-    // What starts in no leaf starts outside: it has found the way out.
-    if leaf::seeks_way_out() && !is_in_leaf(ray.origin) {
+    // What starts in no leaf starts outside.
+    if leaf::seeks_exit() && !is_in_leaf(ray.origin) {
         write_work(pixel);
         hit::write_hit_with_clearance(pixel, 0.0, ray.direction, hit::INSIDE, rounding_at(ray, 0.0));
         return;
@@ -300,22 +301,22 @@ fn trace(
     best_t = ray.t_max;
     best_status = hit::MISS;
 
-    let place = follow(root, ray, inverse);
+    let reference = follow(root, ray, inverse);
     write_work(pixel);
-    if place == structure::EMPTY {
+    if reference == structure::EMPTY {
         write(pixel, ray);
     } else {
-        suspend::suspend_first(waiting_at(place, pixel));
+        suspended::suspend_first(state_at(reference, pixel));
     }
 }
 
 @compute @workgroup_size(64)
 fn resume(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= min(suspend::waiting(), arrayLength(&suspend::pool.slots)) {
+    if id.x >= min(suspended::waiting(), arrayLength(&suspended::pool.slots)) {
         return;
     }
-    let state = suspend::pool.slots[id.x];
-    if state.place == structure::EMPTY {
+    let state = suspended::pool.slots[id.x];
+    if state.reference == structure::EMPTY {
         return;
     }
     let ray = ray_of(state.pixel);
@@ -323,27 +324,19 @@ fn resume(@builtin(global_invocation_id) id: vec3<u32>) {
     best_t = state.best_t;
     best_leaf = state.best_leaf;
     best_status = state.best_status;
-    leaf::search = leaf::Search(
-        state.stage, state.next, state.low, state.low_value, state.high, state.high_value,
-        state.iterations,
-    );
+    leaf::search = state.search;
 
-    descend(state.place, ray, inverse);
-    let place = follow(state.place, ray, inverse);
+    descend(state.reference, ray, inverse);
+    let reference = follow(state.reference, ray, inverse);
     write_work(state.pixel);
-    if place == structure::EMPTY {
+    if reference == structure::EMPTY {
         write(state.pixel, ray);
-        suspend::finish(id.x);
+        suspended::finish(id.x);
     } else {
-        suspend::suspend_again(id.x, waiting_at(place, state.pixel));
+        suspended::suspend_again(id.x, state_at(reference, state.pixel));
     }
 }
 
-fn waiting_at(place: u32, pixel: u32) -> suspend::Suspended {
-    return suspend::Suspended(
-        pixel, place,
-        leaf::search.stage, leaf::search.next, leaf::search.low, leaf::search.low_value,
-        leaf::search.high, leaf::search.high_value, leaf::search.iterations,
-        best_t, best_leaf, best_status,
-    );
+fn state_at(reference: u32, pixel: u32) -> suspended::Suspended {
+    return suspended::Suspended(pixel, reference, leaf::search, best_t, best_leaf, best_status);
 }

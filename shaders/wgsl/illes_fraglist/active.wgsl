@@ -2,7 +2,7 @@
 
 #import illes_fraglist::balls::{segment_of, support_of_rank}
 #import illes_fraglist::budget
-#import illes_fraglist::records::MOST
+#import illes_fraglist::records::ARRAY_CAPACITY
 #import work::count_balls
 
 struct Active {
@@ -11,12 +11,12 @@ struct Active {
     middle: f32,
     half: f32,
     radius: f32,
-    // What the piece multiplies the ball's shape by.
+    // The piece's factor of the ball's shape.
     weight: f32,
 }
 
 // Each active ball's LEAVE is among the records, so there are at most as many.
-var<private> balls: array<Active, MOST>;
+var<private> balls: array<Active, ARRAY_CAPACITY>;
 var<private> count: u32;
 
 // A ball as the ray meets it, without its weight.
@@ -39,13 +39,13 @@ fn enter(ball: Active) {
 }
 
 fn leave(rank: u32) {
-    var place = 0u;
-    while place < count && balls[place].rank != rank {
-        place++;
+    var index = 0u;
+    while index < count && balls[index].rank != rank {
+        index++;
     }
-    budget::spend(place);
-    if place < count {
+    budget::spend(index);
+    if index < count {
         count--;
-        balls[place] = balls[count];
+        balls[index] = balls[count];
     }
 }

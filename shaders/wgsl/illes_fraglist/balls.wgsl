@@ -4,7 +4,7 @@
 #import support::support_of
 #import core::view::{view, NO_LIMIT}
 
-// Balls by rising effective distance. A ball's place here is its rank: lists hold ranks, so that
+// Balls by rising effective distance. A ball's index here is its rank: lists hold ranks, so that
 // putting a list in order is sorting numbers, and equal distances have an order, too.
 @group(2) @binding(0) var<storage, read> ball_of_rank: array<u32>;
 // Radius of each ball's core sphere, scene units; 0 where the ball alone never reaches the threshold.
@@ -38,7 +38,7 @@ fn support_of_rank(rank: u32) -> Support {
     return support_of(ball_of_rank[rank]);
 }
 
-// Whether a segment belongs into its pixel's list: some of it lies between the eye and the limit.
+// Whether a segment belongs into its pixel's list: part of it lies between the eye and the limit.
 fn is_gathered(segment: Segment, limit: f32) -> bool {
     return segment.half > 0.0 && segment.middle + segment.half >= 0.0
         && segment.middle - segment.half <= limit;

@@ -3,10 +3,9 @@
 // with the piece of the field between two of them searched for its first root.
 
 #import color::{blend_add, blend_start, blend_write}
-#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::field::{contribution, depth_below_rim, gradient, offset_at, outward_normal}
 #import core::hit
-#import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of}
-#import illes_fraglist::balls::support_of_rank
+#import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of, support_of_rank}
 #import illes_fraglist::budget
 #import illes_fraglist::overlap
 #import illes_fraglist::lists
@@ -17,13 +16,13 @@
 #import core::view::{in_picture, pixel_at, rays, view}
 #import work::{count_layers, write_work}
 
-// Where a pixel stands between two dispatches; zeros when the frame begins. Twin: Progress of
-// crates/illes-fraglist/src/canvas.rs. The local arrays are not kept: the list up to `place` and the
-// position tell what is in them.
+// The state of a pixel between two dispatches; zeros when the frame begins. Twin: Progress of
+// crates/illes-fraglist/src/canvas.rs. The local arrays are not kept: they follow from the list up to `node`
+// and the position.
 struct Progress {
     stage: u32,
-    // Node of the list to go on with; of a crowded pixel the width of the next stretch, as bits.
-    place: u32,
+    // Node of the list to resume at; of an overfull pixel the width of the next interval, as bits.
+    node: u32,
     // Distance along the ray up to which there is no root.
     position: f32,
     // FALLBACK or 0.
@@ -34,16 +33,17 @@ struct Progress {
 const FRESH: u32 = 0u;
 const UNORDERED: u32 = 1u;
 const WAITING: u32 = 2u;
-const CROWDED: u32 = 3u;
+// Searched without the array.
+const OVERFULL: u32 = 3u;
 const DONE: u32 = 4u;
 
 @group(3) @binding(3) var<storage, read_write> progress: array<Progress>;
 
-// Outcomes of going along the ray.
+// Outcomes of following the ray.
 const PASSED: u32 = 0u;
 const FOUND: u32 = 1u;
 const SPENT: u32 = 2u;
-const NO_ROOM: u32 = 3u;
+const NO_CAPACITY: u32 = 3u;
 
 var<private> direction: vec3<f32>;
 // Where the search ends: the core or the opaque thing, whichever is nearer.
@@ -65,7 +65,7 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
     var now = before;
     if now.stage == FRESH && order::is_too_long(pixel) {
         report_unfinished();
-        report_needed(1u, budget::LONGEST_LIST + 1u);
+        report_needed(1u, budget::LIST_CAPACITY + 1u);
         progress[pixel].stage = DONE;
         return;
     }
@@ -82,18 +82,18 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
         limit = min(core, ray.t_max);
         position = now.position;
         fallback = now.fallback;
-        var place = now.place;
-        var outcome = NO_ROOM;
+        var node = now.node;
+        var outcome = NO_CAPACITY;
         if now.stage == WAITING {
-            recall(lists::head_of(pixel), place);
+            restore_arrays(lists::head_of(pixel), node);
             budget::begin();
-            outcome = go_along(&place);
-            now = Progress(WAITING, place, position, fallback);
+            outcome = follow(&node);
+            now = Progress(WAITING, node, position, fallback);
         }
-        if outcome == NO_ROOM {
-            var width = select(0.0, bitcast<f32>(now.place), now.stage == CROWDED);
-            outcome = search_crowd(lists::head_of(pixel), &width);
-            now = Progress(CROWDED, bitcast<u32>(width), position, fallback);
+        if outcome == NO_CAPACITY {
+            var width = select(0.0, bitcast<f32>(now.node), now.stage == OVERFULL);
+            outcome = search_without_array(lists::head_of(pixel), &width);
+            now = Progress(OVERFULL, bitcast<u32>(width), position, fallback);
         }
         if outcome != SPENT {
             now.stage = DONE;
@@ -101,7 +101,7 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
                 write(pixel, position);
             } else if core < ray.t_max {
                 // The core lies inside the surface, so a ray that reaches it has hit; the cubic of
-                // some kernels lies below the kernel and has not seen it.
+                // some kernels lies below the kernel and has no root there.
                 atomicAdd(&lists::pool.core_hits, 1u);
                 write(pixel, core);
             } else {
@@ -118,37 +118,37 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
-// Puts the balls before a place of the list back into the arrays, as far as the ray is not past them.
-fn recall(head: u32, end: u32) {
-    var place = head;
-    while place != end {
-        place = recall_one(place, end);
-        place = recall_one(place, end);
-        place = recall_one(place, end);
-        place = recall_one(place, end);
+// Puts the balls before a node of the list back into the arrays, as far as the ray is not past them.
+fn restore_arrays(head: u32, end: u32) {
+    var node = head;
+    while node != end {
+        node = restore_ball(node, end);
+        node = restore_ball(node, end);
+        node = restore_ball(node, end);
+        node = restore_ball(node, end);
         budget::spend(1u);
     }
 }
 
-fn recall_one(place: u32, end: u32) -> u32 {
-    if place == end {
+fn restore_ball(node: u32, end: u32) -> u32 {
+    if node == end {
         return end;
     }
-    admit(lists::rank_at(place));
-    return lists::after(place);
+    admit(lists::rank_at(node));
+    return lists::after(node);
 }
 
-// Goes along the ray to its first root or its end.
-fn go_along(place: ptr<function, u32>) -> u32 {
-    // At the limit all is passed, also what the array had no room for.
-    while *place != lists::END && position < limit {
-        if !budget::can_go_on() {
+// Follows the ray to its first root or its end.
+fn follow(node: ptr<function, u32>) -> u32 {
+    // At the limit all is passed, also what exceeded the array's capacity.
+    while *node != lists::END && position < limit {
+        if !budget::can_continue() {
             return SPENT;
         }
-        let rank = lists::rank_at(*place);
+        let rank = lists::rank_at(*node);
         var outcome = pass_up_to(effective_distance(support_of_rank(rank)));
         if outcome == PASSED {
-            outcome = make_room();
+            outcome = free_capacity();
         }
         if outcome != PASSED {
             return outcome;
@@ -156,7 +156,7 @@ fn go_along(place: ptr<function, u32>) -> u32 {
         admit(rank);
         count_layers(1u);
         budget::spend(1u);
-        *place = lists::after(*place);
+        *node = lists::after(*node);
     }
     // Beyond the last separator there is no ball, and none is recorded beyond the limit.
     return pass_up_to(limit);
@@ -187,7 +187,7 @@ fn admit(rank: u32) {
 // Passes all separators up to a distance.
 fn pass_up_to(safe: f32) -> u32 {
     while records::count > 0u && records::nearest() <= safe {
-        if !budget::can_go_on() {
+        if !budget::can_continue() {
             return SPENT;
         }
         if pass_nearest() {
@@ -199,12 +199,12 @@ fn pass_up_to(safe: f32) -> u32 {
 
 // Section 6: where too many supports overlap for the array, separators are passed although a ball yet
 // to come may begin before them.
-fn make_room() -> u32 {
-    while !records::has_room() {
+fn free_capacity() -> u32 {
+    while !records::has_capacity() {
         if overlap::can_search() {
-            return NO_ROOM;
+            return NO_CAPACITY;
         }
-        if !budget::can_go_on() {
+        if !budget::can_continue() {
             return SPENT;
         }
         fallback = hit::FALLBACK;
@@ -216,9 +216,9 @@ fn make_room() -> u32 {
 }
 
 // Searches the rest of the ray without the array.
-fn search_crowd(head: u32, width: ptr<function, f32>) -> u32 {
+fn search_without_array(head: u32, width: ptr<function, f32>) -> u32 {
     var reached = position;
-    let root = overlap::search_crowd(head, direction, limit, &reached, width);
+    let root = overlap::search_without_array(head, direction, limit, &reached, width);
     let is_found = root >= 0.0;
     position = select(reached, root, is_found);
     if is_found {
@@ -250,27 +250,25 @@ fn search(end: f32) -> bool {
 fn write(pixel: u32, t: f32) {
     var slope = vec3(0.0);
     blend_start();
-    var place = lists::head_of(pixel);
-    while place != lists::END {
-        place = add_ball(place, t, &slope);
-        place = add_ball(place, t, &slope);
-        place = add_ball(place, t, &slope);
-        place = add_ball(place, t, &slope);
+    var node = lists::head_of(pixel);
+    while node != lists::END {
+        node = add_ball(node, t, &slope);
+        node = add_ball(node, t, &slope);
+        node = add_ball(node, t, &slope);
+        node = add_ball(node, t, &slope);
     }
     blend_write(pixel);
-    // Where the field is flat, as at a lone centre, the surface faces the ray.
-    let steepness = length(slope);
-    let normal = select(-direction, -slope / steepness, steepness > 0.0);
+    let normal = outward_normal(slope, direction);
     hit::write_hit(pixel, t, normal, select(hit::INSIDE, hit::HIT, t > 0.0) + fallback);
 }
 
-// Adds what a ball of the list gives to slope and colour at t. Returns the next place; END behind the
+// Adds what a ball of the list gives to slope and colour at t. Returns the next node; END behind the
 // last ball that reaches t.
-fn add_ball(place: u32, t: f32, slope: ptr<function, vec3<f32>>) -> u32 {
-    if place == lists::END {
+fn add_ball(node: u32, t: f32, slope: ptr<function, vec3<f32>>) -> u32 {
+    if node == lists::END {
         return lists::END;
     }
-    let rank = lists::rank_at(place);
+    let rank = lists::rank_at(node);
     let support = support_of_rank(rank);
     if effective_distance(support) > t {
         return lists::END;
@@ -280,7 +278,7 @@ fn add_ball(place: u32, t: f32, slope: ptr<function, vec3<f32>>) -> u32 {
     let v = depth_below_rim(offset, support.radius);
     *slope += gradient(ball, v, offset, support.radius);
     blend_add(ball, contribution(ball, v));
-    return lists::after(place);
+    return lists::after(node);
 }
 
 fn write_miss(pixel: u32) {

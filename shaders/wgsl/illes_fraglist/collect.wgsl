@@ -1,19 +1,20 @@
-// Core depth and lists of all pixels, each from the entries of its tile: what cores.wgsl and gather.wgsl
-// do by rasterising.
+// Core depth and lists of all pixels, each from the entries of its tile: what illes_fraglist::cores and
+// illes_fraglist::gather do by rasterising.
 
-#import illes_fraglist::balls::{ball_of_rank, core_entry, is_gathered, segment_of}
-#import illes_fraglist::balls::support_of_rank
+#import core::status::{report_needed, report_unfinished}
+#import core::tiles::tile_at
+#import core::view::{in_picture, pixel_at, rays, NO_LIMIT}
+#import illes_fraglist::balls::{ball_of_rank, core_entry, is_gathered, segment_of, support_of_rank}
 #import illes_fraglist::lists
 #import illes_fraglist::tiles
-#import core::status::{report_needed, report_unfinished}
-#import core::view::{in_picture, pixel_at, rays, NO_LIMIT}
 
-// What cast.wgsl reads as `lists::core_distance`.
+// What illes_fraglist::cast reads as lists::core_distance.
 @group(3) @binding(6) var core_distance: texture_storage_2d<r32float, write>;
 
 // Entries of a tile at most: two walks along them, four an iteration, stay below the 65,535 iterations
-// of software Vulkan. Invocations side by side share a tile and walk together. Twin: TILE_CAPACITY of crates/illes-fraglist/src/options.rs.
-const MOST_ENTRIES: u32 = 120000u;
+// of software Vulkan. Invocations side by side share a tile and walk together. Twin: TILE_CAPACITY of
+// crates/illes-fraglist/src/options.rs.
+const TILE_CAPACITY: u32 = 120000u;
 
 @compute @workgroup_size(8, 8)
 fn collect(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -22,19 +23,18 @@ fn collect(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let pixel = pixel_at(id.xy);
     let ray = rays[pixel];
-    let side = tiles::tile_side();
-    let tile = id.y / side * tiles::tiles_across(side) + id.x / side;
+    let tile = tile_at(id.xy);
     var start = 0u;
     if tile > 0u {
         start = atomicLoad(&tiles::marks[tile - 1u]);
     }
     let end = min(atomicLoad(&tiles::marks[tile]), arrayLength(&tiles::entries));
     if end <= start {
-        // Nothing here, or nothing that there was room for.
+        // Nothing here, or nothing within the capacity.
         textureStore(core_distance, id.xy, vec4(NO_LIMIT));
         return;
     }
-    if end - start > MOST_ENTRIES {
+    if end - start > TILE_CAPACITY {
         report_unfinished();
         report_needed(3u, end - start);
         return;
@@ -43,7 +43,7 @@ fn collect(@builtin(global_invocation_id) id: vec3<u32>) {
     var core = NO_LIMIT;
     for (var entry = start; entry < end; entry += 4u) {
         core = min(core, core_of_entry(entry, ray.direction));
-        // Beyond the last entry the last is looked at again.
+        // Beyond the last entry the last is taken again.
         core = min(core, core_of_entry(min(entry + 1u, end - 1u), ray.direction));
         core = min(core, core_of_entry(min(entry + 2u, end - 1u), ray.direction));
         core = min(core, core_of_entry(min(entry + 3u, end - 1u), ray.direction));

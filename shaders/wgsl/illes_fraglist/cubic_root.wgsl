@@ -6,8 +6,8 @@
 const NO_ROOT: f32 = -1.0;
 
 // Where the cubic with these Bernstein coefficients first is zero or more; NO_ROOT where it is
-// negative throughout. Section 6: the monotone case, nearly the only one, is told from the
-// coefficients; otherwise the extremes part the interval into monotone stretches.
+// negative throughout. Section 6: the monotone case, nearly the only one, is seen from the
+// coefficients; otherwise the extremes cut the interval into monotone parts.
 fn first_root_of_cubic(b: vec4<f32>) -> f32 {
     if b.x >= 0.0 {
         return 0.0;
@@ -20,8 +20,8 @@ fn first_root_of_cubic(b: vec4<f32>) -> f32 {
     }
     let ends = vec3(extremes(b), 1.0);
     var low = 0.0;
-    for (var stretch = 0u; stretch < 3u; stretch++) {
-        let high = ends[stretch];
+    for (var part = 0u; part < 3u; part++) {
+        let high = ends[part];
         if value(b, high) >= 0.0 {
             return climb(b, low, high);
         }
@@ -49,7 +49,7 @@ fn extremes(b: vec4<f32>) -> vec2<f32> {
     return vec2(min(inside.x, inside.y), max(inside.x, inside.y));
 }
 
-// The root in a stretch where the cubic rises from below zero to zero or more, by Newton's steps
+// The root in a part where the cubic rises from below zero to zero or more, by Newton's steps
 // inside a shrinking bracket. The upper end is returned: there the cubic is not negative.
 fn climb(b: vec4<f32>, start: f32, end: f32) -> f32 {
     var low = start;

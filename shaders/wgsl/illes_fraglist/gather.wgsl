@@ -1,6 +1,6 @@
 // Puts each ball into the lists of all pixels whose rays meet its support before the core (section 5,
-// gathering). Drawn farthest first, so that lists come out nearest first where the device keeps the
-// order; order.wgsl sees to the rest.
+// gathering). Drawn farthest first, so that lists are nearest first where the device keeps the draw
+// order; illes_fraglist::order does the rest.
 
 #import core::cover::covering_corner
 #import illes_fraglist::balls::{is_gathered, segment_of, support_of_rank}

@@ -2,35 +2,35 @@
 
 #import core::status::{report_needed, report_unfinished}
 
-// A node of a list. Twin: Node of crates/illes-fraglist/src/canvas.rs.
+// A node of a list. Twin: Node of crates/illes-fraglist/src/lists.rs.
 struct Node {
     rank: u32,
-    // Place of the next node.
+    // Reference to the next node.
     next: u32,
 }
 
-// Twin of its head: PoolHead of crates/illes-fraglist/src/canvas.rs; zeros when the frame begins.
+// Twin of its head: PoolHead of crates/illes-fraglist/src/lists.rs; zeros when the frame begins.
 struct Pool {
-    // Nodes asked for, whether there was room or not.
-    asked: atomic<u32>,
-    // Pixels whose ray reached a core before a root: the core was taken for the hit.
+    // Nodes requested, also beyond the capacity.
+    requested: atomic<u32>,
+    // Pixels whose ray reached a core before a root, so that the core counts as the hit.
     core_hits: atomic<u32>,
     nodes: array<Node>,
 }
 
-// Places count from 1, so that a cleared buffer is a picture of empty lists.
+// References to nodes count from 1, so that a cleared buffer is a picture of empty lists.
 const END: u32 = 0u;
 
-// Place of the first node of each pixel's list.
+// Reference to the first node of each pixel's list.
 @group(3) @binding(0) var<storage, read_write> heads: array<atomic<u32>>;
 @group(3) @binding(1) var<storage, read_write> pool: Pool;
 // Distance along each pixel's ray to the nearest core; NO_LIMIT where there is none.
 @group(3) @binding(2) var core_distance: texture_2d<f32>;
 
-// Puts a rank before a pixel's list. Where the pool is full the frame is unfinished, and says how large
+// Puts a rank before a pixel's list. Where the pool is full the frame is unfinished, and reports how large
 // the pool would have to be.
 fn prepend(pixel: u32, rank: u32) {
-    let index = atomicAdd(&pool.asked, 1u);
+    let index = atomicAdd(&pool.requested, 1u);
     if index >= arrayLength(&pool.nodes) {
         report_unfinished();
         report_needed(0u, index + 1u);
@@ -44,27 +44,27 @@ fn head_of(pixel: u32) -> u32 {
     return atomicLoad(&heads[pixel]);
 }
 
-fn rank_at(place: u32) -> u32 {
-    return pool.nodes[place - 1u].rank;
+fn rank_at(node: u32) -> u32 {
+    return pool.nodes[node - 1u].rank;
 }
 
-fn after(place: u32) -> u32 {
-    return pool.nodes[place - 1u].next;
+fn after(node: u32) -> u32 {
+    return pool.nodes[node - 1u].next;
 }
 
-// The next place, also of the end, which is its own.
-fn after_or_end(place: u32) -> u32 {
-    if place == END {
+// The next node; END after END.
+fn after_or_end(node: u32) -> u32 {
+    if node == END {
         return END;
     }
-    return after(place);
+    return after(node);
 }
 
-fn link(pixel: u32, place: u32, next: u32) {
-    if place == END {
+fn link(pixel: u32, node: u32, next: u32) {
+    if node == END {
         atomicStore(&heads[pixel], next);
     } else {
-        pool.nodes[place - 1u].next = next;
+        pool.nodes[node - 1u].next = next;
     }
 }
 

@@ -1,14 +1,14 @@
-// Puts a pixel's list in order of rank. Where fragments arrive in draw order, as many devices happen
-// to have it and none promises, the list is in order already and one walk says so; otherwise it is a
-// few runs, which a natural merge sort of the links joins in place.
+// Puts a pixel's list in order of rank. Where fragments arrive in draw order, as on many devices though
+// none promises it, the list is in order already, which one walk finds; otherwise it is a few runs,
+// which a natural merge sort of the links joins without further memory.
 
 #import illes_fraglist::budget
 #import illes_fraglist::lists
 
-// Whether the list is in order. `false`: the budget is spent; the next dispatch goes on from what
+// Whether the list is in order. `false`: the budget is spent; the next dispatch resumes with what
 // has been merged.
 fn restore_order(pixel: u32) -> bool {
-    while budget::can_go_on() {
+    while budget::can_continue() {
         if merge_runs(pixel) <= 1u {
             return true;
         }
@@ -18,14 +18,14 @@ fn restore_order(pixel: u32) -> bool {
 
 // Whether the list has more nodes than an invocation can walk along.
 fn is_too_long(pixel: u32) -> bool {
-    var place = lists::head_of(pixel);
-    for (var four = 0u; four < budget::LONGEST_LIST / 4u && place != lists::END; four++) {
-        place = lists::after_or_end(place);
-        place = lists::after_or_end(place);
-        place = lists::after_or_end(place);
-        place = lists::after_or_end(place);
+    var node = lists::head_of(pixel);
+    for (var four = 0u; four < budget::LIST_CAPACITY / 4u && node != lists::END; four++) {
+        node = lists::after_or_end(node);
+        node = lists::after_or_end(node);
+        node = lists::after_or_end(node);
+        node = lists::after_or_end(node);
     }
-    return place != lists::END;
+    return node != lists::END;
 }
 
 // Two neighbouring runs on their way into one.
@@ -35,7 +35,7 @@ struct Merge {
     middle: u32,
     second: u32,
     rest: u32,
-    // The last node that is in its place.
+    // The last node that is in order.
     tail: u32,
 }
 
@@ -52,7 +52,7 @@ fn merge_runs(pixel: u32) -> u32 {
         }
         merge.second = merge.middle;
         merge.rest = after_run(merge.middle);
-        while goes_on(merge) {
+        while has_rest(merge) {
             put_lower(pixel, &merge);
             put_lower(pixel, &merge);
             put_lower(pixel, &merge);
@@ -67,51 +67,52 @@ fn merge_runs(pixel: u32) -> u32 {
     return runs;
 }
 
-fn goes_on(merge: Merge) -> bool {
+// Whether a node is still to be merged.
+fn has_rest(merge: Merge) -> bool {
     return merge.first != merge.middle || merge.second != merge.rest;
 }
 
 // Puts the lower of the two next nodes behind the tail; does nothing when both runs are done.
 fn put_lower(pixel: u32, merge: ptr<function, Merge>) {
     let now = *merge;
-    if !goes_on(now) {
+    if !has_rest(now) {
         return;
     }
     let is_first = now.first != now.middle
         && (now.second == now.rest || lists::rank_at(now.first) < lists::rank_at(now.second));
-    let place = select(now.second, now.first, is_first);
+    let node = select(now.second, now.first, is_first);
     if is_first {
-        (*merge).first = lists::after(place);
+        (*merge).first = lists::after(node);
     } else {
-        (*merge).second = lists::after(place);
+        (*merge).second = lists::after(node);
     }
-    lists::link(pixel, now.tail, place);
-    (*merge).tail = place;
+    lists::link(pixel, now.tail, node);
+    (*merge).tail = node;
 }
 
 // The first node behind a run of rising ranks.
 fn after_run(start: u32) -> u32 {
-    var place = start;
-    while is_followed(place) {
-        place = next_of_run(place);
-        place = next_of_run(place);
-        place = next_of_run(place);
-        place = next_of_run(place);
+    var node = start;
+    while is_followed(node) {
+        node = next_of_run(node);
+        node = next_of_run(node);
+        node = next_of_run(node);
+        node = next_of_run(node);
         budget::spend(1u);
     }
-    return lists::after_or_end(place);
+    return lists::after_or_end(node);
 }
 
 // Whether the node behind is of the same run.
-fn is_followed(place: u32) -> bool {
-    let next = lists::after_or_end(place);
-    return next != lists::END && lists::rank_at(next) > lists::rank_at(place);
+fn is_followed(node: u32) -> bool {
+    let next = lists::after_or_end(node);
+    return next != lists::END && lists::rank_at(next) > lists::rank_at(node);
 }
 
 // The node behind in the same run; the last one stays.
-fn next_of_run(place: u32) -> u32 {
-    if is_followed(place) {
-        return lists::after(place);
+fn next_of_run(node: u32) -> u32 {
+    if is_followed(node) {
+        return lists::after(node);
     }
-    return place;
+    return node;
 }

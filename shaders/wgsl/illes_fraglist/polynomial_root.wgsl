@@ -5,13 +5,13 @@
 #import illes_fraglist::polynomial::{degree_along_ray, is_quartic, Polynomial}
 #import work::count_iterations
 
-// Narrowest cell in which the number of roots is still asked for: 2^-12 of the interval. What two
-// roots enclose in one is above the threshold by less than the square of it.
+// Narrowest cell in which the number of roots still matters: 2^-12 of the interval. What two roots
+// enclose in one is above the threshold by less than the square of it.
 const NARROWEST: f32 = 0x1p-12f;
 
-// Where the polynomial first is zero or more; NO_ROOT where it is negative throughout. Goes through
-// dyadic cells from the left: one whose coefficients are all negative is passed, one with a single
-// change of sign holds a single root, any other is halved.
+// Where the polynomial first is zero or more; NO_ROOT where it is negative throughout. Visits dyadic
+// cells from the left: one whose coefficients are all negative is passed, one with a single change of
+// sign holds a single root, any other is halved.
 fn first_root_of_polynomial(polynomial: Polynomial) -> f32 {
     if is_negative(polynomial) {
         return NO_ROOT;

@@ -1,10 +1,10 @@
 // Sorts balls by effective distance on the device: a radix sort from the least digit, four bits a
-// pass. Each pass counts the digits of each block, turns counts into places, and moves the entries
+// pass. Each pass counts the digits of each block, turns counts into offsets, and moves the entries
 // there in order; so equal keys stay in the order of their balls. Workgroups wait for each other only
 // from dispatch to dispatch.
 
 #import illes_fraglist::balls::effective_distance
-#import illes_fraglist::prefix::{sum_before, THREADS}
+#import core::prefix_sum::{sum_before, THREADS}
 #import core::scene::scene
 #import support::support_of
 
@@ -15,10 +15,10 @@ struct Entry {
 }
 
 struct Table {
-    // Passes whose places are made; zero when the frame begins.
+    // Passes whose offsets are made; zero when the frame begins.
     passes: u32,
     // Digit by digit, in each block by block: how many entries, then where the first of them goes.
-    places: array<u32>,
+    offsets: array<u32>,
 }
 
 // Entries of a workgroup, and of one of its invocations: BLOCK of crates/illes-fraglist/src/radix.rs.
@@ -30,7 +30,7 @@ const DIGITS: u32 = 16u;
 @group(2) @binding(0) var<storage, read> entries: array<Entry>;
 @group(2) @binding(1) var<storage, read_write> moved: array<Entry>;
 @group(2) @binding(2) var<storage, read_write> table: Table;
-// What balls.wgsl reads as `ball_of_rank`.
+// What illes_fraglist::balls reads as `ball_of_rank`.
 @group(2) @binding(3) var<storage, read_write> order: array<u32>;
 
 @compute @workgroup_size(128)
@@ -68,7 +68,7 @@ fn count_digits(
     }
     workgroupBarrier();
     if thread < DIGITS && block < blocks() {
-        table.places[thread * blocks() + block] = atomicLoad(&totals[thread]);
+        table.offsets[thread * blocks() + block] = atomicLoad(&totals[thread]);
     }
 }
 
@@ -80,13 +80,13 @@ fn place_digits(@builtin(local_invocation_index) thread: u32) {
     let end = min(first + run, all);
     var sum = 0u;
     for (var index = first; index < end; index++) {
-        sum += table.places[index];
+        sum += table.offsets[index];
     }
-    var place = sum_before(thread, sum);
+    var offset = sum_before(thread, sum);
     for (var index = first; index < end; index++) {
-        let count = table.places[index];
-        table.places[index] = place;
-        place += count;
+        let count = table.offsets[index];
+        table.offsets[index] = offset;
+        offset += count;
     }
     if thread == 0u {
         table.passes += 1u;
@@ -95,7 +95,7 @@ fn place_digits(@builtin(local_invocation_index) thread: u32) {
 
 // Of each digit and invocation: how many entries, then where the next one goes in the block.
 var<workgroup> counts: array<u32, 2048>;
-// Of each digit: what leads from a place in the block to one among all.
+// Of each digit: from an offset in the block to one among all.
 var<workgroup> shifts: array<u32, DIGITS>;
 
 @compute @workgroup_size(128)
@@ -116,15 +116,15 @@ fn spread_entries(
     for (var cell = thread * DIGITS; cell < (thread + 1u) * DIGITS; cell++) {
         sum += counts[cell];
     }
-    var place = sum_before(thread, sum);
+    var offset = sum_before(thread, sum);
     for (var cell = thread * DIGITS; cell < (thread + 1u) * DIGITS; cell++) {
         let count = counts[cell];
-        counts[cell] = place;
-        place += count;
+        counts[cell] = offset;
+        offset += count;
     }
     workgroupBarrier();
     if thread < DIGITS && block < blocks() {
-        shifts[thread] = table.places[thread * blocks() + block] - counts[thread * GROUP];
+        shifts[thread] = table.offsets[thread * blocks() + block] - counts[thread * GROUP];
     }
     workgroupBarrier();
     for (var index = first; index < end; index++) {

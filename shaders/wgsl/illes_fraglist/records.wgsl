@@ -1,5 +1,5 @@
 // The separators that a ray has yet to pass: ends and midpoints of effective intervals, ordered by
-// distance, in a local array of fixed size (section 6). The nearest stands last, so that taking it
+// distance, in a local array of fixed size (section 6). The nearest is the last, so that taking it
 // is counting down.
 
 #import illes_fraglist::budget
@@ -9,10 +9,10 @@ const ENTER: u32 = 0u;
 const MIDDLE: u32 = 1u;
 const LEAVE: u32 = 2u;
 
-// Room of the array as compiled; WGSL has no private arrays of overridable size.
-const MOST: u32 = 96u;
-// Records that may be in it, from 3 to MOST.
-@id(49) override room: u32 = MOST;
+// The array's size as compiled: WGSL has no private arrays of overridable size.
+const ARRAY_CAPACITY: u32 = 96u;
+// Records that may be in it, from 3 to ARRAY_CAPACITY.
+@id(49) override capacity: u32 = ARRAY_CAPACITY;
 
 struct Record {
     // Distance along the ray, scene units.
@@ -21,7 +21,7 @@ struct Record {
     label: u32,
 }
 
-var<private> records: array<Record, MOST>;
+var<private> records: array<Record, ARRAY_CAPACITY>;
 var<private> count: u32;
 
 fn rank_of(record: Record) -> u32 {
@@ -32,8 +32,9 @@ fn kind_of(record: Record) -> u32 {
     return record.label & 3u;
 }
 
-fn has_room() -> bool {
-    return count + 3u <= room;
+// Whether the separators of one more ball fit.
+fn has_capacity() -> bool {
+    return count + 3u <= capacity;
 }
 
 fn nearest() -> f32 {
@@ -46,7 +47,7 @@ fn take() -> Record {
 }
 
 // Inserts the separators of a ball from the kind `first` on, at rising distances. What is nearer is
-// moved once, by as many places as are still to be filled behind it.
+// moved once, by as many indices as are still to be filled behind it.
 fn insert(rank: u32, at: vec3<f32>, first: u32) {
     var gap = 3u - first;
     var unmoved = count;

@@ -1,4 +1,4 @@
-// Once a frame, a ball each: where it is on the picture; and, once it is known which balls are seen,
+// Once a frame, a ball each: where it is on the picture; and, once it is known which balls are visible,
 // which are drawn, and the list of those around the eye. It keeps the balls' order, so that frames can
 // be repeated.
 //
@@ -89,9 +89,9 @@ fn spread(
     if id.x < scene.balls {
         own.z = placed[id.x].around;
     }
-    let place = sums_up_to(lane, own).z - own.z + blocks[group.x].z;
-    if own.z == 1u && place < MOST_ACTIVE {
-        arranged.around_balls[place] = id.x;
+    let index = sums_up_to(lane, own).z - own.z + blocks[group.x].z;
+    if own.z == 1u && index < MOST_ACTIVE {
+        arranged.around_balls[index] = id.x;
     }
 }
 

@@ -1,4 +1,4 @@
-// What arrange.wgsl made and the tiles' balls, for the passes that draw.
+// What kanamori_peel::arrange made and the tiles' balls, for the passes that draw.
 
 #import kanamori_peel::placed::Placed
 #import kanamori_peel::tiles::Tile

@@ -2,9 +2,9 @@
 
 #import kanamori_peel::bernstein::{Curve, degree}
 
-// A root's outcome beside those in [0, 1].
+// Instead of a root in [0, 1]: there is none.
 const NO_ROOT: f32 = 2.0;
-// Iterations ran out: cannot happen short of arithmetic that is broken.
+// The iterations ran out, which no exact arithmetic can bring about.
 const LOST: f32 = 3.0;
 const MOST_ITERATIONS: u32 = 4096u;
 
@@ -26,7 +26,7 @@ fn right_half(piece: Piece) -> Piece {
     return Piece(after(piece.curve, 0.5), 0.5 * (piece.low + piece.high), piece.high);
 }
 
-// The piece between two places of it, 0 to 1.
+// The part of a piece between two parameters, 0 to 1.
 fn cut(piece: Piece, low: f32, high: f32) -> Piece {
     let width = piece.high - piece.low;
     let curve = part(piece.curve, low, high);

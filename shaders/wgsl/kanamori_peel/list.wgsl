@@ -1,7 +1,7 @@
 // The list of active balls of a ray (section 4.2), and the search of one interval with them.
 
 #import color::{blend_add, blend_start, blend_write}
-#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::field::{contribution, depth_below_rim, gradient, offset_at, outward_normal}
 #import core::hit
 #import kanamori_peel::arranged::{kernel_radii, MOST_ACTIVE}
 #import kanamori_peel::bernstein::{along_chord, Curve, degree}
@@ -11,17 +11,17 @@
 #import core::scene::scene
 #import strength::strength
 #import support::support_of
-#import core::view::{Ray, view}
+#import core::view::{view, PrimaryRay}
 #import work::{count_balls, count_leaf_test, count_search_end}
 
-// Outcomes of a search beside distances.
+// Outcomes of a search that are no distances.
 const NOTHING_FOUND: f32 = -1.0;
 const SEARCH_LOST: f32 = -2.0;
 
 var<private> listed: array<u32, MOST_ACTIVE>;
 var<private> listed_count: u32;
 
-// A ball that is on the list goes, one that is not comes. False where there is no room.
+// Removes a ball that is on the list, and adds one that is not. False where the list is full.
 fn toggle(ball: u32, capacity: u32) -> bool {
     for (var k = 0u; k < listed_count; k++) {
         if listed[k] == ball {
@@ -39,7 +39,7 @@ fn toggle(ball: u32, capacity: u32) -> bool {
 }
 
 // The first t of [low, high] at which the active balls reach the threshold.
-fn search(ray: Ray, low: f32, high: f32) -> f32 {
+fn search(ray: PrimaryRay, low: f32, high: f32) -> f32 {
     if listed_count == 0u {
         return NOTHING_FOUND;
     }
@@ -51,7 +51,7 @@ fn search(ray: Ray, low: f32, high: f32) -> f32 {
 }
 
 // One ball alone: its kernel sphere.
-fn search_single(ray: Ray, low: f32, high: f32) -> f32 {
+fn search_single(ray: PrimaryRay, low: f32, high: f32) -> f32 {
     let ball = listed[0];
     let radius = kernel_radii[ball];
     let chord = chord_of(support_of(ball).center - view.eye, radius, ray.direction);
@@ -62,7 +62,7 @@ fn search_single(ray: Ray, low: f32, high: f32) -> f32 {
 }
 
 // Several balls: the sum of their curves over the interval, by Bézier clipping.
-fn search_multiple(ray: Ray, low: f32, high: f32) -> f32 {
+fn search_multiple(ray: PrimaryRay, low: f32, high: f32) -> f32 {
     count_leaf_test();
     var sum = Curve();
     for (var i = 0u; i <= degree(); i++) {
@@ -73,7 +73,7 @@ fn search_multiple(ray: Ray, low: f32, high: f32) -> f32 {
         let support = support_of(listed[k]);
         let chord = chord_of(support.center - view.eye, support.radius, ray.direction);
         let half = sqrt(max(chord.half_squared, 0.0));
-        // A ball whose end was lost to a coincident point stays on the list, and adds nothing.
+        // A ball whose end was missed, behind a coincident point, stays on the list and adds nothing.
         if abs(middle - chord.middle) < half {
             let a = chord.half_squared / (support.radius * support.radius);
             let ends = (vec2(low, high) - chord.middle + half) / (2.0 * half);
@@ -89,7 +89,7 @@ fn search_multiple(ray: Ray, low: f32, high: f32) -> f32 {
     return select(mix(low, high, root), SEARCH_LOST, root == LOST);
 }
 
-// Adds the part of a ball's curve between two places of its chord.
+// Adds the part of a ball's curve between two parameters of its chord.
 fn add(sum: ptr<function, Curve>, curve: Curve, ends: vec2<f32>) {
     let restricted = part(curve, ends.x, ends.y);
     for (var i = 0u; i <= degree(); i++) {
@@ -98,7 +98,7 @@ fn add(sum: ptr<function, Curve>, curve: Curve, ends: vec2<f32>) {
 }
 
 // Writes a hit, with normal and colour from the active balls.
-fn write_surface(pixel: u32, ray: Ray, t: f32) {
+fn write_surface(pixel: u32, ray: PrimaryRay, t: f32) {
     var slope = vec3(0.0);
     blend_start();
     for (var k = 0u; k < listed_count; k++) {
@@ -110,14 +110,12 @@ fn write_surface(pixel: u32, ray: Ray, t: f32) {
         blend_add(ball, contribution(ball, v));
     }
     blend_write(pixel);
-    // Where the field is flat, as at a lone centre, the surface faces the ray.
-    let steepness = length(slope);
-    let normal = select(-ray.direction, -slope / steepness, steepness > 0.0);
+    let normal = outward_normal(slope, ray.direction);
     hit::write_hit(pixel, t, normal, select(hit::INSIDE, hit::HIT, t > 0.0));
 }
 
 // Section 7: with more balls over a point than the list holds, the support itself is drawn.
-fn write_support(pixel: u32, ray: Ray, t: f32, ball: u32) {
+fn write_support(pixel: u32, ray: PrimaryRay, t: f32, ball: u32) {
     let support = support_of(ball);
     blend_start();
     blend_add(ball, 1.0);

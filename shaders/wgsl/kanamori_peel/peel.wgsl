@@ -28,7 +28,7 @@ struct Point {
     @builtin(frag_depth) depth: f32,
 }
 
-// The tile's number is in the first vertex, see turn.wgsl.
+// The tile's number is in the first vertex, see kanamori_peel::turn.
 @vertex
 fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index: u32) -> Corner {
     let ball = registered[tiles[vertex / VERTICES].first + index];
@@ -40,8 +40,8 @@ fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index
 }
 
 // Section 5.1: only the nearer of the two faces beyond the last point. A ball that the ray only
-// touches has no chord and does not come up at all. Of points with one t the depth test keeps the one
-// drawn first, that of the lowest index, and the others are lost (section 7, figure 9a).
+// touches has no chord and is left out. Of points with one t the depth test keeps the one drawn first,
+// that of the lowest index, and the others are missed (section 7, figure 9a).
 @fragment
 fn next_point(corner: Corner) -> Point {
     let position = vec2<u32>(corner.position.xy);

@@ -2,10 +2,11 @@
 // passes: tally and fill (256 balls a workgroup) with assign (one workgroup, a lane a tile) between
 // them.
 
-#import kanamori_peel::placed::Placed
-#import kanamori_peel::tiles::{MOST_TILES, Tile, tile_at, TileRange, tiles_of}
 #import core::scene::scene
 #import core::status::{report_needed, report_unfinished}
+#import core::tiles::TileRange
+#import kanamori_peel::placed::Placed
+#import kanamori_peel::tiles::{tile_at, tiles_of, Tile, MOST_TILES}
 
 @group(2) @binding(0) var<storage, read> placed: array<Placed>;
 @group(2) @binding(1) var<storage, read_write> tiles: array<Tile>;
@@ -71,8 +72,8 @@ fn fill(
         for (var column = range.first.x; column < range.end.x; column++) {
             let tile = tile_at(column, row);
             if tiles[tile].balls > 0u {
-                let place = tallies[group.x][tile] + balls_before(lane, tile);
-                registered[tiles[tile].first + place] = id.x;
+                let offset = tallies[group.x][tile] + balls_before(lane, tile);
+                registered[tiles[tile].first + offset] = id.x;
             }
         }
     }
@@ -84,7 +85,7 @@ fn gather(ball: u32, lane: u32) -> TileRange {
         atomicStore(&here[lane][word], 0u);
     }
     workgroupBarrier();
-    var range = TileRange(vec2(0u), vec2(0u));
+    var range = TileRange();
     if ball < scene.balls {
         range = tiles_of(placed[ball]);
     }

@@ -7,12 +7,12 @@
 #import kanamori_peel::frame::from_depth
 #import kanamori_peel::tiles::{corner_of_tile, tile_of}
 #import core::status::report_unfinished
-#import core::view::{in_picture, NO_LIMIT, pixel_at, Ray, rays}
+#import core::view::{in_picture, pixel_at, rays, PrimaryRay, NO_LIMIT}
 #import work::{count_layers, write_work}
 
-// Whether kernel spheres were drawn, see arrange.wgsl.
+// Whether kernel spheres were drawn, see kanamori_peel::arrange.
 @id(32) override culling: bool = true;
-// K: the longest list. With what stands before it, it fills the targets at most.
+// K: the longest list. With the two numbers before it, it fills the targets at most.
 @id(35) override capacity: u32 = 14u;
 
 // Set for each tile that has a ray without an answer after this layer.
@@ -94,7 +94,7 @@ fn test_layer(@builtin(position) at: vec4<f32>) -> Lists {
 fn test_interval(
     position: vec2<u32>,
     pixel: u32,
-    ray: Ray,
+    ray: PrimaryRay,
     last: f32,
     point: vec2<f32>,
 ) -> f32 {
@@ -110,7 +110,7 @@ fn test_interval(
         hit::write_hit(pixel, last, -ray.direction, hit::UNDECIDED);
         return NO_LIMIT;
     }
-    // Nothing beyond a kernel sphere comes before the surface: it is a hit by itself.
+    // A kernel sphere that no point lies in front of is a hit by itself.
     if t == list::NOTHING_FOUND && kernel < NO_LIMIT && kernel <= min(next, ray.t_max) {
         t = kernel;
     }
@@ -138,14 +138,14 @@ fn account(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
-// Takes up a ray's list; returns the t of its last point.
+// Restores a ray's list; returns the t of its last point.
 fn restore(position: vec2<u32>) -> f32 {
     let head = textureLoad(lists, position, 0, 0);
     list::listed_count = u32(head.y);
     for (var k = 0u; k < list::listed_count; k++) {
-        let place = k + 2u;
-        let part = textureLoad(lists, position, place / 4u, 0);
-        list::listed[k] = u32(part[place % 4u]);
+        let channel = k + 2u;
+        let part = textureLoad(lists, position, channel / 4u, 0);
+        list::listed[k] = u32(part[channel % 4u]);
     }
     return head.x;
 }

@@ -1,11 +1,11 @@
 // Between two layers: what the next one draws. A tile without a ray that lacks an answer draws nothing,
-// so that what is recorded beyond the last layer costs little, and nobody reads anything back.
+// so that what is recorded beyond the last layer costs little, and nothing is read back.
 
 #import kanamori_peel::outline::VERTICES
 #import kanamori_peel::tiles::{MOST_TILES, Tile}
 
-// An indirect draw. The number of the tile is in the first vertex: its balls' place has no use as the
-// first instance, which would take a feature.
+// An indirect draw. The number of the tile is in the first vertex: a first instance, which could be the
+// index of its first ball, would take a feature.
 struct Draw {
     vertices: u32,
     instances: u32,

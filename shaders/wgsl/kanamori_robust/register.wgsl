@@ -1,12 +1,14 @@
 // Registers balls with the tiles of the picture: counts, adds up, fills in, and sorts each tile's list.
 
-#import core::cover::covering_corner
-#import kanamori_robust::lists
-#import kanamori_robust::lists::{entries, Entry, marks}
-#import core::scene::scene
+#import core::cover::cover_sphere
+#import core::prefix_sum::{sum_before, THREADS}
+#import core::scene::{scene, Support}
 #import core::status::{report_needed, report_unfinished}
-#import support::support_of
+#import core::tiles::{square_tiles_under, TileRange, MOST_TILES}
 #import core::view::view
+#import kanamori_robust::lists
+#import kanamori_robust::lists::{entries, marks, Entry}
+#import support::support_of
 
 @compute @workgroup_size(64)
 fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -14,22 +16,18 @@ fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_work
     if ball >= scene.balls {
         return;
     }
-    let across = lists::tiles_along(view.width, lists::tile_side());
-    let range = tiles_of_ball(ball);
+    let range = tiles_of(support_of(ball));
     for (var row = range.first.y; row < range.end.y; row++) {
         for (var column = range.first.x; column < range.end.x; column++) {
-            atomicAdd(&marks[row * across + column], 1u);
+            atomicAdd(&marks[row * range.across + column], 1u);
         }
     }
 }
 
-const THREADS: u32 = 256u;
-var<workgroup> sums: array<u32, THREADS>;
-
-// Turns counts into places, in one workgroup: each invocation adds up a run of tiles.
+// Turns counts into offsets, in one workgroup: each invocation adds up a run of tiles.
 @compute @workgroup_size(256)
 fn place_tiles(@builtin(local_invocation_index) thread: u32) {
-    let run = lists::MOST_TILES / THREADS;
+    let run = MOST_TILES / THREADS;
     var sum = 0u;
     var longest = 0u;
     for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
@@ -37,22 +35,17 @@ fn place_tiles(@builtin(local_invocation_index) thread: u32) {
         sum += count;
         longest = max(longest, count);
     }
-    if longest > lists::MOST_ENTRIES {
+    if longest > lists::TILE_CAPACITY {
         report_unfinished();
         report_needed(1u, longest);
     }
-    sums[thread] = sum;
-    workgroupBarrier();
-    var place = 0u;
-    for (var before = 0u; before < thread; before++) {
-        place += sums[before];
-    }
+    var offset = sum_before(thread, sum);
     for (var tile = thread * run; tile < (thread + 1u) * run; tile++) {
-        place += atomicExchange(&marks[tile], place);
+        offset += atomicExchange(&marks[tile], offset);
     }
-    if thread == THREADS - 1u && place > arrayLength(&entries) {
+    if thread == THREADS - 1u && offset > arrayLength(&entries) {
         report_unfinished();
-        report_needed(0u, place);
+        report_needed(0u, offset);
     }
 }
 
@@ -66,38 +59,20 @@ fn fill_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
     let distance = length(support.center - view.eye);
     // The difference, the length and the direction's own length err by a few parts in 2^23.
     let near = distance - support.radius - 8.0 * 0x1p-23f * (distance + support.radius);
-    let across = lists::tiles_along(view.width, lists::tile_side());
-    let range = tiles_of_ball(ball);
+    let range = tiles_of(support);
     for (var row = range.first.y; row < range.end.y; row++) {
         for (var column = range.first.x; column < range.end.x; column++) {
-            let place = atomicAdd(&marks[row * across + column], 1u);
-            if place < arrayLength(&entries) {
-                entries[place] = Entry(near, ball);
+            let index = atomicAdd(&marks[row * range.across + column], 1u);
+            if index < arrayLength(&entries) {
+                entries[index] = Entry(near, ball);
             }
         }
     }
 }
 
-// Columns and rows of tiles, first and behind the last, that a ball's rectangle meets.
-struct TileRange {
-    first: vec2<u32>,
-    end: vec2<u32>,
-}
-
-fn tiles_of_ball(ball: u32) -> TileRange {
-    let support = support_of(ball);
-    let low = covering_corner(support.center, support.radius, 0u).xy;
-    let high = covering_corner(support.center, support.radius, 3u).xy;
-    if low.x >= high.x || low.y >= high.y {
-        return TileRange(vec2(0u), vec2(0u));
-    }
-    // Rows count from the top.
-    let size = vec2(f32(view.width), f32(view.height));
-    let first = 0.5 * vec2(1.0 + low.x, 1.0 - high.y) * size;
-    let last = 0.5 * vec2(1.0 + high.x, 1.0 - low.y) * size;
-    let side = lists::tile_side();
-    let tiles = vec2(lists::tiles_along(view.width, side), lists::tiles_along(view.height, side));
-    return TileRange(vec2<u32>(first) / side, min(vec2<u32>(last) / side + 1u, tiles));
+// The tiles that a ball's rectangle meets.
+fn tiles_of(support: Support) -> TileRange {
+    return square_tiles_under(cover_sphere(support.center - view.eye, support.radius));
 }
 
 var<workgroup> range_of_tile: vec2<u32>;
@@ -111,7 +86,7 @@ fn sort_entries(
 ) {
     if thread == 0u {
         let list = lists::list_of(group.x);
-        range_of_tile = vec2(list.x, min(list.y, list.x + lists::MOST_ENTRIES));
+        range_of_tile = vec2(list.x, min(list.y, list.x + lists::TILE_CAPACITY));
     }
     let range = workgroupUniformLoad(&range_of_tile);
     let length = range.y - range.x;

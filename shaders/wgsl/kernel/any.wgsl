@@ -1,11 +1,10 @@
-// All kernels, told apart wherever a value is asked for. Formulas and order of operations are those of
-// power.wgsl, wyvill.wgsl and perlin.wgsl.
+// Any kernel, by a branch wherever a value is needed. Formulas and order of operations are those of the
+// kernel's own module.
 
 #import exponent::exponent
 #import core::kernel_read::{kernel_read, PERLIN, POWER}
 #import core::powers::power
 
-// v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {
     let depth = max(v, 0.0);
     if kernel_read.family == POWER {
@@ -19,7 +18,6 @@ fn kernel(v: f32) -> f32 {
     return depth * depth * (5.0 + 4.0 * depth) * (1.0 / 9.0);
 }
 
-// Derivative by v; zero for v <= 0.
 fn kernel_slope(v: f32) -> f32 {
     let depth = max(v, 0.0);
     if kernel_read.family == POWER {
@@ -33,7 +31,6 @@ fn kernel_slope(v: f32) -> f32 {
     return depth * (10.0 + 12.0 * depth) * (1.0 / 9.0);
 }
 
-// |d2k/dt2| R^2 along any line is nowhere more.
 fn greatest_bend() -> f32 {
     if kernel_read.family == POWER {
         return select(f32(4u * exponent() * (exponent() - 1u)), 1e9, exponent() == 1u);
@@ -41,7 +38,7 @@ fn greatest_bend() -> f32 {
     return 6.0;
 }
 
-// The greatest slope between two values of v: Perlin's peaks at rho = 1/3, the others grow with v.
+// Perlin's slope peaks at rho = 1/3, the others grow with v.
 fn steepest_slope(least: f32, most: f32) -> f32 {
     const PEAK: f32 = 8.0 / 9.0;
     if kernel_read.family == PERLIN {

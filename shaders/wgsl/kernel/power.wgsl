@@ -3,12 +3,10 @@
 #import exponent::exponent
 #import core::powers::power
 
-// v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {
     return power(max(v, 0.0), exponent());
 }
 
-// Derivative by v; zero for v <= 0.
 fn kernel_slope(v: f32) -> f32 {
     if v <= 0.0 {
         return 0.0;
@@ -16,14 +14,13 @@ fn kernel_slope(v: f32) -> f32 {
     return f32(exponent()) * power(v, exponent() - 1u);
 }
 
-// |d2k/dt2| R^2 along any line is nowhere more: 2 alpha v^(alpha - 1) where the line is nearest,
-// 4 alpha (alpha - 1) v^(alpha - 2) (1 - v) less that elsewhere. With alpha = 1 the slope jumps
-// at the rim: a number so large that it allows for nothing.
+// 2 alpha v^(alpha - 1) where the line is nearest, 4 alpha (alpha - 1) v^(alpha - 2) (1 - v) less that
+// elsewhere. With alpha = 1 the slope jumps at the rim: a number so large that it allows for nothing.
 fn greatest_bend() -> f32 {
     return select(f32(4u * exponent() * (exponent() - 1u)), 1e9, exponent() == 1u);
 }
 
-// The greatest slope between two values of v: the slope grows with v.
+// The slope grows with v.
 fn steepest_slope(least: f32, most: f32) -> f32 {
     return kernel_slope(most);
 }

@@ -1,24 +1,21 @@
 // Wyvill's polynomial of degree six in r, written in v: v^2 (5 + 4v) / 9 (Kanamori et al. 2008).
 
-// v = 1 - r^2/R^2; zero for v <= 0.
 fn kernel(v: f32) -> f32 {
     let depth = max(v, 0.0);
     return depth * depth * (5.0 + 4.0 * depth) * (1.0 / 9.0);
 }
 
-// Derivative by v; zero for v <= 0.
 fn kernel_slope(v: f32) -> f32 {
     let depth = max(v, 0.0);
     return depth * (10.0 + 12.0 * depth) * (1.0 / 9.0);
 }
 
-// |d2k/dt2| R^2 along any line is nowhere more: 2 k' <= 44/9 where the line is nearest, and elsewhere
-// 4 k'' (1 - v) <= 5.36 less that.
+// 2 k' <= 44/9 where the line is nearest, and elsewhere 4 k'' (1 - v) <= 5.36 less that.
 fn greatest_bend() -> f32 {
     return 6.0;
 }
 
-// The greatest slope between two values of v: the slope grows with v.
+// The slope grows with v.
 fn steepest_slope(least: f32, most: f32) -> f32 {
     return kernel_slope(most);
 }

@@ -1,6 +1,6 @@
 // Takes the answers to shadow and occlusion rays, and sends the next ones.
 
-#import batch::list::place_of
+#import batch::list::index_in_list
 #import core::hit::{MISS, UNDECIDED}
 #import light::path::{answered_shadow_rays, path_rays, paths, shadow_hits}
 #import light::scatter::continue_path
@@ -10,7 +10,7 @@ fn resolve_shadow_rays(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) index: u32,
 ) {
-    let listed = place_of(group, index);
+    let listed = index_in_list(group, index);
     if listed >= answered_shadow_rays.count {
         return;
     }

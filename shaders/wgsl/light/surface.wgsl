@@ -2,7 +2,7 @@
 // surface where they hit, or the floor where that is nearer.
 
 #import batch::free_ray::ANSWERED
-#import batch::list::place_of
+#import batch::list::index_in_list
 #import core::hit::{clearance_of, hits, unfold, HIT, INSIDE, MISS}
 #import core::view::NO_LIMIT
 #import light::environment::environment
@@ -16,7 +16,7 @@ fn meet_surface(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) index: u32,
 ) {
-    let listed = place_of(group, index);
+    let listed = index_in_list(group, index);
     if listed >= answered.count {
         return;
     }

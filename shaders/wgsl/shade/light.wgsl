@@ -19,7 +19,7 @@ fn phong(base: vec3<f32>, normal: vec3<f32>, toward_eye: vec3<f32>) -> vec3<f32>
     return base * (key_light + fill_light + ambient) + 0.22 * pow(mirrored, 48.0);
 }
 
-// What the eye sees from within the solid: no surface to light.
+// Seen from within the solid: no surface to light.
 fn from_within(base: vec3<f32>) -> vec3<f32> {
     return 0.25 * base;
 }

@@ -1,4 +1,4 @@
-// What all pictures share: where they are written, and what a pixel without a surface looks like.
+// What all pictures share: where they are stored, and the scale of values.
 
 #import core::srgb::encode
 

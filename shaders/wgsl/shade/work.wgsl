@@ -4,7 +4,7 @@
 #import core::view::{in_picture, pixel_at}
 #import core::work_record::{Work, work_of_pixel}
 
-// Which counter: its place in `Work`. Id 1 of the ids that metaball-core sets.
+// Which counter: its index in `Work`. Id 1 of the ids that metaball-core sets.
 @id(1) override counter: u32 = 0u;
 
 @compute @workgroup_size(8, 8)

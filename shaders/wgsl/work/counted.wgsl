@@ -1,4 +1,4 @@
-// What a pixel cost, counted in private memory and added to the pixel's record once an invocation.
+// Counted in private memory.
 
 #import core::work_record::{Work, work_of_pixel}
 
@@ -6,7 +6,7 @@ var<private> work: Work;
 // Iterations since the last search ended.
 var<private> in_search: u32;
 
-// Levels of a tree, at most: MAX_DEPTH of crates/fbvh/src/node.rs.
+// Levels of a tree at most. Twin: MAX_DEPTH of crates/fbvh/src/node.rs.
 const MAX_DEPTH: u32 = 64u;
 
 // Interior nodes on the way from a tree's root to where a walk is, and to the subtrees that it left for
@@ -18,13 +18,11 @@ fn count_node() {
     work.nodes += 1u;
 }
 
-// Through an interior node, to one of its children.
 fn go_down() {
     level += 1u;
     work.depth = max(work.depth, level);
 }
 
-// A child of the node that was last gone through is left for later.
 fn leave_for_later(slot: u32) {
     levels_left[slot] = level;
 }
@@ -50,7 +48,6 @@ fn count_iterations(n: u32) {
     in_search += n;
 }
 
-// The iterations to come belong to another search.
 fn count_search_end() {
     work.longest_search = max(work.longest_search, in_search);
     in_search = 0u;

@@ -314,14 +314,8 @@ mod tests {
             assert_eq!(host_layout!(Leaf { min, first, max, own }), twin("Leaf"));
             let suspended = host_layout!(Suspended {
                 pixel,
-                place,
-                stage,
-                next,
-                low,
-                low_value,
-                high,
-                high_value,
-                iterations,
+                reference,
+                search,
                 best_t,
                 best_leaf,
                 best_status,

@@ -1,4 +1,4 @@
-//! Where rays are kept between two dispatches: the host's side of `shaders/wgsl/fbvh/suspend.wgsl`.
+//! Where rays are kept between two dispatches: the host's side of `shaders/wgsl/fbvh/suspended.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use metaball_core::gpu::{Gpu, RenderError};
@@ -8,14 +8,9 @@ use metaball_core::gpu::{Gpu, RenderError};
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(super) struct Suspended {
     pub(super) pixel: u32,
-    pub(super) place: u32,
-    pub(super) stage: u32,
-    pub(super) next: u32,
-    pub(super) low: f32,
-    pub(super) low_value: f32,
-    pub(super) high: f32,
-    pub(super) high_value: f32,
-    pub(super) iterations: u32,
+    pub(super) reference: u32,
+    /// `Search` of the modules in `shaders/wgsl/fbvh/leaf`: in each of the same size.
+    pub(super) search: [u32; 7],
     pub(super) best_t: f32,
     pub(super) best_leaf: u32,
     pub(super) best_status: u32,

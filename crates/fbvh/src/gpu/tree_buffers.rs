@@ -6,7 +6,7 @@ use super::pipelines::Layouts;
 use super::suspended::SuspendedPool;
 use crate::Tree;
 
-/// The longest list of a leaf: about as long as the budget of `shaders/wgsl/fbvh/suspend.wgsl`, so that
+/// The longest list of a leaf: about as long as the budget of `shaders/wgsl/fbvh/budget.wgsl`, so that
 /// one walk along it fits into a dispatch, and none of the eight invocations that software Vulkan runs
 /// side by side brings them near the 65,535 iterations, in all, after which it ends them.
 const LONGEST_LIST: u32 = 6_600;

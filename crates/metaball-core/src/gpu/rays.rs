@@ -8,7 +8,7 @@ use super::pipeline::{Specialization, compute_pipeline};
 use super::{Gpu, RenderError};
 use crate::NO_LIMIT;
 
-/// A primary ray as shaders see it, 16 bytes: WGSL's `Ray` of `shaders/wgsl/core/view.wgsl`. It starts at
+/// A primary ray as shaders see it, 16 bytes: WGSL's `PrimaryRay` of `shaders/wgsl/core/view.wgsl`. It starts at
 /// the view's eye.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]

@@ -5,8 +5,8 @@
 
 use super::{Gpu, RenderError, Shader, Specialization, workgroup_grid};
 
-/// Tiles of a picture at most: `MOST_TILES` of the methods' modules. A ball that fills the picture takes
-/// so many iterations of an invocation.
+/// Tiles of a picture at most: `MOST_TILES` of `shaders/wgsl/core/tiles.wgsl`. A ball that fills the
+/// picture takes so many iterations of an invocation.
 const MOST_TILES: u32 = 16_384;
 
 /// Pixels on a tile's side, where the picture has not too many of them.
@@ -96,8 +96,8 @@ impl TileBins {
         self.marks.size() + self.entries.size()
     }
 
-    /// Tiles of a picture of so many pixels across and down: as `tile_side` of the methods' modules has
-    /// them, with sides of 16 pixels, doubled until there are not too many.
+    /// Tiles of a picture of so many pixels across and down, as `shaders/wgsl/core/tiles.wgsl` has them: with
+    /// sides of 16 pixels, doubled until there are not too many.
     pub fn tiles_of((width, height): (u32, u32)) -> u32 {
         let tiles = |side: u32| width.div_ceil(side).saturating_mul(height.div_ceil(side));
         let mut side = SMALLEST_SIDE;

@@ -1,29 +1,24 @@
-// What a certified search for the field's first rise to T knows of an interval of a ray: exact ranges
-// of the excess F - T. Derived in crates/fbvh/src/trace/certified.rs.
+// The excess F - T, for the search for an entry into the solid. Derived in
+// crates/fbvh/src/trace/certified/ranges.rs.
 
-#import fbvh::bounds::Bounds
-#import fbvh::relative_ray::Frame
-#import fbvh::near_balls::{ball_of, begin_walk, near_in, summing, words}
-#import fbvh::projection::{depths_on, least_product, project}
-#import kernel::{kernel, kernel_slope}
 #import core::scene::scene
+#import fbvh::bounds::Bounds
+#import fbvh::near_balls::{ball_of, begin_walk, near_in, sum_error, words}
+#import fbvh::projection::{depths_on, least_product, project}
+#import fbvh::relative_ray::RelativeRay
+#import kernel::{kernel, kernel_slope}
 
-// The excess is this times F - T.
 const SIGN: f32 = 1.0;
 
-// Whether the excess stays below 0 where the field is nowhere more than this.
 fn stays_below(most: f32) -> bool {
     return most < scene.threshold;
 }
 
-// Whether a box that the field is above T in throughout answers the search.
-const SOLID_ENDS: bool = true;
+const SOLID_ANSWERS: bool = true;
 
-// One walk along the leaf's list.
-fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds {
+fn bounds_on(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> Bounds {
     begin_walk();
-    // How far the sums may err, of their terms.
-    let doubt = summing();
+    let error = sum_error();
     var most = 0.0;
     var least_slope = 0.0;
     var end_least = 0.0;
@@ -35,7 +30,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
     loop {
         var bits = near_in(word);
         loop {
-            let seen = project(frame, direction, ball_of(word, bits));
+            let seen = project(ray, direction, ball_of(word, bits));
             let v = depths_on(seen, low, high);
             if bits != 0u && v.most > 0.0 {
                 let q = seen.weight;
@@ -46,7 +41,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
                 let to_start = low - seen.middle;
                 let to_end = high - seen.middle;
                 let steep = 2.0 * q * seen.inverse_square;
-                least_slope += steep * least_product(seen, v, -to_end, doubt);
+                least_slope += steep * least_product(seen, v, -to_end, error);
                 start += vec2(q * kernel(v.start), -steep * to_start * kernel_slope(v.start));
                 stop += vec2(q * kernel(v.end), -steep * to_end * kernel_slope(v.end));
                 radius = min(radius, seen.radius);
@@ -63,8 +58,8 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
     }
     let threshold = scene.threshold;
     return Bounds(
-        most * (1.0 + doubt) - threshold, least_slope,
-        end_least * (1.0 - doubt) - threshold, end_most * (1.0 + doubt) - threshold,
+        most * (1.0 + error) - threshold, least_slope,
+        end_least * (1.0 - error) - threshold, end_most * (1.0 + error) - threshold,
         start - vec2(threshold, 0.0), stop - vec2(threshold, 0.0), radius,
     );
 }

@@ -1,30 +1,25 @@
-// What a certified search for the exit of a ray that starts in the solid knows of an interval: exact
-// ranges of the excess T - F. Twin of rises.wgsl, with every bound on the other side: a ball adds least
-// at the interval's farther end from its projection.
+// The excess T - F, for the search for an exit of a ray that starts in the solid. Every bound is on the
+// other side than for an entry: a ball adds least at the interval's farther end from its projection.
 
-#import fbvh::bounds::Bounds
-#import fbvh::relative_ray::Frame
-#import fbvh::near_balls::{ball_of, begin_walk, near_in, summing, words}
-#import fbvh::projection::{depths_on, least_product, project}
-#import kernel::{kernel, kernel_slope}
 #import core::scene::scene
+#import fbvh::bounds::Bounds
+#import fbvh::near_balls::{ball_of, begin_walk, near_in, sum_error, words}
+#import fbvh::projection::{depths_on, least_product, project}
+#import fbvh::relative_ray::RelativeRay
+#import kernel::{kernel, kernel_slope}
 
-// The excess is this times F - T.
 const SIGN: f32 = -1.0;
 
-// Whether the excess stays below 0 where the field is nowhere more than this: never told.
+// Never known: that takes a lower bound of the field.
 fn stays_below(most: f32) -> bool {
     return false;
 }
 
-// Whether a box that the field is above T in throughout answers the search.
-const SOLID_ENDS: bool = false;
+const SOLID_ANSWERS: bool = false;
 
-// One walk along the leaf's list.
-fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds {
+fn bounds_on(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> Bounds {
     begin_walk();
-    // How far the sums may err, of their terms.
-    let doubt = summing();
+    let error = sum_error();
     var least = 0.0;
     var least_slope = 0.0;
     var end_most = 0.0;
@@ -36,7 +31,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
     loop {
         var bits = near_in(word);
         loop {
-            let seen = project(frame, direction, ball_of(word, bits));
+            let seen = project(ray, direction, ball_of(word, bits));
             let v = depths_on(seen, low, high);
             if bits != 0u && v.most > 0.0 {
                 let q = seen.weight;
@@ -47,7 +42,7 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
                 let to_start = low - seen.middle;
                 let to_end = high - seen.middle;
                 let steep = 2.0 * q * seen.inverse_square;
-                least_slope += steep * least_product(seen, v, to_start, doubt);
+                least_slope += steep * least_product(seen, v, to_start, error);
                 start += vec2(q * kernel(v.start), -steep * to_start * kernel_slope(v.start));
                 stop += vec2(q * kernel(v.end), -steep * to_end * kernel_slope(v.end));
                 radius = min(radius, seen.radius);
@@ -64,8 +59,8 @@ fn bounds_on(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Bounds 
     }
     let threshold = scene.threshold;
     return Bounds(
-        threshold - least * (1.0 - doubt), least_slope,
-        threshold - end_most * (1.0 + doubt), threshold - end_least * (1.0 - doubt),
+        threshold - least * (1.0 - error), least_slope,
+        threshold - end_most * (1.0 + error), threshold - end_least * (1.0 - error),
         vec2(threshold, 0.0) - start, vec2(threshold, 0.0) - stop, radius,
     );
 }

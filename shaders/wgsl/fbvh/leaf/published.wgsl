@@ -4,17 +4,19 @@
 
 #import core::field::{contribution, depth_below_rim, offset_at}
 #import core::hit::{HIT, INSIDE}
-#import fbvh::structure::{is_empty, leaves, lists, through_box, Leaf, Stretch}
-#import fbvh::suspend::{can_go_on, can_walk, spent}
-#import ray::{any_will_do, Ray}
+#import core::ray::Ray
 #import core::scene::scene
-#import support::support_of
 #import core::view::NO_LIMIT
+#import fbvh::budget::{can_continue, can_walk, spent}
+#import fbvh::leaf_outcome::{FOUND, MISSED, WAITING}
+#import fbvh::structure::{is_empty, leaves, lists, through_box, Interval, Leaf}
+#import ray::any_hit_suffices
+#import support::support_of
 #import work::{count_balls, count_evaluations, count_iterations, count_leaf_test}
 
 // The FBVH projects all balls of a leaf, the modified BVH its own (sections 5.2 and 4).
 @id(17) override fitted: bool = true;
-// The reading of section 5.2: projections clamped to the stretch of the ray inside the leaf's box,
+// The reading of section 5.2: projections clamped to the interval of the ray inside the leaf's box,
 // the bracket opened at its entry; or, literally, projections wherever they fall and the bracket
 // opened at the ray's origin.
 @id(18) override clipped: bool = true;
@@ -22,47 +24,20 @@
 @id(19) override tolerance: f32 = 1e-4;
 @id(20) override max_iterations: u32 = 64u;
 
-// Leaves of the FBVH do not overlap: once one holds a hit, no later one holds a nearer.
+// Leaves of the FBVH do not overlap.
 fn first_hit_ends() -> bool {
     return fitted;
 }
 
 // The paper's test starts outside.
-fn seeks_way_out() -> bool {
+fn seeks_exit() -> bool {
     return false;
-}
-
-// The status of a hit just found: at the ray's origin the field was T or more to begin with.
-fn status_found() -> u32 {
-    return select(INSIDE, HIT, search.high > 0.0);
-}
-
-// What a search has come to.
-const MISSED: u32 = 0u;
-const FOUND: u32 = 1u;
-const WAITING: u32 = 2u;
-// Certified searches alone have doubts, leave closing in on a root for later, and look for the way out.
-const DOUBTED: u32 = 3u;
-const BRACKETED: u32 = 4u;
-const UNMET: u32 = 5u;
-const LEAVING: u32 = 6u;
-
-fn is_bracketed() -> bool {
-    return false;
-}
-
-fn take_up_way_out(ray: Ray, inverse: vec3<f32>, index: u32) -> bool {
-    return true;
-}
-
-fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
-    return FOUND;
 }
 
 // Stages of a search.
 const ENTER: u32 = 0u;
 const PROJECT: u32 = 1u;
-const EXIT: u32 = 2u;
+const LEAVE: u32 = 2u;
 const START: u32 = 3u;
 const SOLVE: u32 = 4u;
 // The same, after a step that moved the low or the high end.
@@ -72,10 +47,11 @@ const SOLVE_AFTER_HIGH: u32 = 6u;
 // A value not yet known, at a low end: known ones are negative.
 const UNKNOWN: f32 = 1.0;
 
-// The search as it stands. `low` is before the surface, `high` at or behind it once its value is
-// not negative; values are field - T, at times halved to weight the secant (Illinois).
+// `low` is before the surface, `high` at or behind it once its value is not negative; values are
+// field - T, at times halved to weight the secant (Illinois).
 struct Search {
     stage: u32,
+    // Entry of the list whose ball is projected next.
     next: u32,
     low: f32,
     low_value: f32,
@@ -85,6 +61,31 @@ struct Search {
 }
 
 var<private> search: Search;
+
+fn reset() {
+    search.stage = ENTER;
+}
+
+fn hit_t() -> f32 {
+    return search.high;
+}
+
+// At the ray's origin the field was T or more to begin with.
+fn hit_status() -> u32 {
+    return select(INSIDE, HIT, search.high > 0.0);
+}
+
+fn is_bracketed() -> bool {
+    return false;
+}
+
+fn close_in(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
+    return FOUND;
+}
+
+fn bracket_exit(ray: Ray, inverse: vec3<f32>, index: u32) -> bool {
+    return true;
+}
 
 // What one ball adds to the field at t.
 fn contribution_at(ball: u32, ray: Ray, t: f32) -> f32 {
@@ -128,19 +129,18 @@ fn walk_along(first: u32, end: u32) -> u32 {
     return (end - first) / 4u + 4u;
 }
 
-// Goes on with the search of a leaf. FOUND leaves the hit's distance in `search.high`.
 fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     let leaf = leaves[index];
     let end = leaves[index + 1u].first;
     let walk = walk_along(leaf.first, end);
     let in_box = through_box(leaf.min, leaf.max, ray, inverse);
-    var stretch = Stretch(0.0, ray.t_max);
+    var interval = Interval(0.0, ray.t_max);
     if clipped {
-        stretch = in_box;
+        interval = in_box;
     }
 
     if search.stage == ENTER {
-        // Only a tree of one leaf comes here without a test of its box.
+        // Only a tree of one leaf has not tested its box before.
         if is_empty(in_box) {
             return MISSED;
         }
@@ -149,12 +149,12 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
         }
         count_leaf_test();
         count_balls(end - leaf.first);
-        search = Search(PROJECT, leaf.first, stretch.enter, UNKNOWN, stretch.leave, -1.0, 0u);
+        search = Search(PROJECT, leaf.first, interval.enter, UNKNOWN, interval.leave, -1.0, 0u);
         // Where the box holds the ray's start, that may be inside the surface.
         if clipped || in_box.enter == 0.0 {
-            search.low_value = field_above(ray, leaf.first, end, stretch.enter);
+            search.low_value = field_above(ray, leaf.first, end, interval.enter);
             if search.low_value >= 0.0 {
-                search.high = stretch.enter;
+                search.high = interval.enter;
                 return FOUND;
             }
         }
@@ -163,7 +163,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     if search.stage == PROJECT {
         let projected = select(leaf.first + leaf.own, end, fitted);
         while search.next < projected {
-            if !can_go_on() {
+            if !can_continue() {
                 return WAITING;
             }
             let t = dot(support_of(lists[search.next]).center - ray.origin, ray.direction);
@@ -175,7 +175,7 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
                 if value >= 0.0 {
                     search.high = t;
                     search.high_value = value;
-                    if any_will_do() {
+                    if any_hit_suffices() {
                         return FOUND;
                     }
                 }
@@ -183,11 +183,11 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
             search.next++;
             spent++;
         }
-        search.stage = EXIT;
+        search.stage = LEAVE;
     }
 
-    // Projections beyond the stretch are clamped to its end, all of them in one evaluation.
-    if search.stage == EXIT {
+    // Projections beyond the interval are clamped to its end, all of them in one evaluation.
+    if search.stage == LEAVE {
         if search.high_value < 0.0 && search.high < NO_LIMIT {
             if !can_walk(walk) {
                 return WAITING;
@@ -253,13 +253,12 @@ fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32 {
     return FOUND;
 }
 
-// What rounding and an early end can leave of F - T at a hit, and by how much rounding can move a ball's
-// v there: an offset is wrong by the roundings of a difference, a product and a sum; three squares, two
-// sums, a square, a division and a difference follow.
 fn residual() -> f32 {
     return tolerance * scene.threshold;
 }
 
+// An offset errs by the roundings of a difference, a product and a sum; three squares, two sums, a
+// square, a division and a difference follow.
 fn depth_error(leaf: Leaf, ray: Ray, t: f32, offset: vec3<f32>, radius: f32) -> f32 {
     return 0x1p-23f * (6.0 + 4.0 * (2.0 * t + length(offset)) / radius);
 }

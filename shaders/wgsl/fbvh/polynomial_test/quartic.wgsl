@@ -1,24 +1,22 @@
-// A look at the field along an interval of a ray in a leaf, for the kernel v^2: by a polynomial, which
-// decides most leaves in fewer walks along the list than ranges do. What it cannot tell is left to the
-// search by ranges. For rays that look for the solid.
+// The test for the kernel v^2, on the search for an entry.
 //
-// Along the ray a ball's v = 1 - r^2/R^2 is a parabola, with the Bernstein coefficients v(a), its blossom
+// Along the ray a ball's v = 1 - r^2/R^2 is a parabola, with the Bernstein coefficients v(a), its polar form
 // at (a, b), and v(b) on an interval [a, b]. With negative coefficients raised to zero it is nowhere lower,
 // so the sum of the squares is a quartic nowhere below the field; and it is the field itself where all
 // balls that reach the interval cover it. Argued in crates/fbvh/src/trace/certified.rs.
 
-#import fbvh::relative_ray::{Frame, UNIT}
-#import fbvh::near_balls::{ball_of, begin_walk, near_in, summing, words}
-#import fbvh::test_result::{Outlook, ABOVE, BELOW, ONCE, UNCLEAR}
-#import fbvh::projection::{project, rim_share, Projection}
-#import ray::any_will_do
+#import core::nearby_origin::UNIT
 #import core::scene::scene
+#import fbvh::near_balls::{ball_of, begin_walk, near_in, sum_error, words}
+#import fbvh::projection::{project, rim_share, Projection}
+#import fbvh::relative_ray::RelativeRay
+#import fbvh::test_result::{TestResult, ABOVE, BELOW, ONCE, UNCERTAIN}
+#import ray::any_hit_suffices
 
-// So many looks at a leaf, before ranges are asked.
-const LOOKS: u32 = 3u;
+const MOST_TESTS: u32 = 3u;
 
 // How far rounding can move the coefficients of v on an interval at whose ends s = r^2/R^2 is at most so
-// much. At the ends as depth_margin, but for values of any size. The blossom is 1 - p(a).p(b)/R^2, where p
+// much. At the ends as depth_margin, but for values of any size. The polar form is 1 - p(a).p(b)/R^2, where p
 // points from the centre to the ray: it has the same bound, since |p(a)| |p(b)| / R^2 is at most s, too. What
 // holds for the coefficients holds for all values between them.
 fn coefficient_margin(seen: Projection, s: f32) -> f32 {
@@ -26,15 +24,15 @@ fn coefficient_margin(seen: Projection, s: f32) -> f32 {
     return UNIT * (1.0 + 10.0 * s) + part * (2.0 * sqrt(s) + part);
 }
 
-// One walk along the leaf's list. The field is below T at `low`, or that is unclear, too.
-fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
+// The field is below T at `low`, or that is uncertain, too.
+fn polynomial_test(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> TestResult {
     begin_walk();
-    // Coefficients of what is nowhere below the field and of what is nowhere above it; the last one apart,
-    // where either is the field.
+    // Coefficients of an upper and of a lower bound of the field; the last one apart, the field at the
+    // interval's end, which is either's.
     var most = vec4(0.0);
     var least = vec4(0.0);
     var last = 0.0;
-    // The last one of what is nowhere above it.
+    // The same of the balls that cover the interval.
     var least_last = 0.0;
     // How far rounding can move the field.
     var error = 0.0;
@@ -45,7 +43,7 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
     loop {
         var bits = near_in(word);
         loop {
-            let seen = project(frame, direction, ball_of(word, bits));
+            let seen = project(ray, direction, ball_of(word, bits));
             let to_start = low - seen.middle;
             let to_end = high - seen.middle;
             let along = vec3(to_start, to_start, to_end) * vec3(to_start, to_end, to_end);
@@ -80,34 +78,34 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
         }
     }
     // How far the sums may err, of themselves: their terms are products of products.
-    let doubt = summing() + 8.0 * UNIT;
-    let most_error = error * (1.0 + doubt);
-    let upper = most * (1.0 + doubt) + (most_error - scene.threshold);
-    let upper_last = last * (1.0 + doubt) + (most_error - scene.threshold);
-    let lower = least * (1.0 - doubt) - (most_error + scene.threshold);
-    let lower_last = last * (1.0 - doubt) - (most_error + scene.threshold);
+    let rounding = sum_error() + 8.0 * UNIT;
+    let most_error = error * (1.0 + rounding);
+    let upper = most * (1.0 + rounding) + (most_error - scene.threshold);
+    let upper_last = last * (1.0 + rounding) + (most_error - scene.threshold);
+    let lower = least * (1.0 - rounding) - (most_error + scene.threshold);
+    let lower_last = last * (1.0 - rounding) - (most_error + scene.threshold);
 
     if all(upper < vec4(0.0)) && upper_last < 0.0 {
-        return Outlook(BELOW, low, high, high);
+        return TestResult(BELOW, low, high, high);
     }
     let width = high - low;
-    // Where any hit will do, so does a place where the field is certainly above T: the interval's end, or
+    // Where any hit suffices, so does a point where the field is certainly above T: the interval's end, or
     // one before it. There all terms are positive, and the quartic's own errs by less than a sum does.
-    if any_will_do() {
+    if any_hit_suffices() {
         var above = select(0.0, 1.0, lower_last > 0.0);
         for (var x = 0.25; x < 1.0; x += 0.25) {
-            let field = quartic(least, least_last, x) * (1.0 - 2.0 * doubt);
+            let field = quartic(least, least_last, x) * (1.0 - 2.0 * rounding);
             above = select(above, x, field > most_error + scene.threshold);
         }
         if above > 0.0 {
-            return Outlook(ABOVE, low, low + above * width, high);
+            return TestResult(ABOVE, low, low + above * width, high);
         }
     }
     if upper.x >= 0.0 {
-        return Outlook(UNCLEAR, low, high, high);
+        return TestResult(UNCERTAIN, low, high, high);
     }
     if lower_last > 0.0 && (rises || (covered && changes_once(upper, lower))) {
-        return Outlook(ONCE, low, high, low + width * root_of(upper, upper_last));
+        return TestResult(ONCE, low, high, low + width * root_of(upper, upper_last));
     }
     // The quartic keeps below the steepest line from its first coefficient to another.
     let slopes = (vec4(upper.yzw, upper_last) - upper.x) * vec4(1.0, 0.5, 1.0 / 3.0, 0.25);
@@ -120,7 +118,7 @@ fn look(frame: Frame, direction: vec3<f32>, low: f32, high: f32) -> Outlook {
         until = select(until, x, quartic(lower, lower_last, x) > 0.0);
     }
     // Short of the line by more than rounding.
-    return Outlook(UNCLEAR, low + 0.9375 * clear * width, min(low + until * width, high), high);
+    return TestResult(UNCERTAIN, low + 0.9375 * clear * width, min(low + until * width, high), high);
 }
 
 // Whether coefficients, the first of them below 0 and the last above, change sign once, wherever between
@@ -138,7 +136,7 @@ fn quartic(c: vec4<f32>, last: f32, x: f32) -> f32 {
         + x * x * x * (4.0 * y * c.w + x * last);
 }
 
-// Where a quartic that is below 0 at 0 and above at 1 comes to 0, nearly: false position.
+// About where a quartic that is below 0 at 0 and above at 1 reaches 0: false position.
 fn root_of(c: vec4<f32>, last: f32) -> f32 {
     var low = vec2(0.0, c.x);
     var high = vec2(1.0, last);

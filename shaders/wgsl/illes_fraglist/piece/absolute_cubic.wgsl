@@ -1,5 +1,5 @@
-// The field between two separators as the printed running cubic: coefficients of (t³, t², t, 1),
-// to which each separator adds its Δw (section 4). In f32 this is wrong by 4 % of a ball ten radii from
+// As the printed running cubic: coefficients of (t³, t², t, 1), to which each separator adds its Δw
+// (section 4). In f32 this is wrong by 4 % of a ball ten radii from
 // the eye and by half a ball at thirty; it is here to show that.
 
 #import core::field::contribution
@@ -39,8 +39,6 @@ fn pass_separator(rank: u32, kind: u32, direction: vec3<f32>) {
     }
 }
 
-// The first point in [start, end] where the cubic reaches the threshold, or NO_ROOT. No separator lies
-// between the two.
 fn first_root(start: f32, end: f32) -> f32 {
     count_leaf_test();
     let ends = vec2(start, end);

@@ -1,9 +1,10 @@
-// The field between two separators as a cubic, made anew from the balls that are active there.
+// As a cubic, made anew from the balls that are active there.
 //
 // A ball's cubic on either half of its interval has values 0 and γ and flat ends, so on any part of
-// it values and slopes at the part's two ends tell all; their sums over the active balls are the
-// sum's. The printed sum of coefficients (absolute.wgsl) loses its digits with the distance from the
-// eye, and drifts when it is shifted along; this is right to 1.3e-6 of T at any distance and length.
+// it values and slopes at the part's two ends determine it; their sums over the active balls are the
+// sum's. The printed sum of coefficients (the implementation absolute_cubic) loses its digits with the
+// distance from the eye, and drifts when it is shifted along; this is right to 1.3e-6 of T at any
+// distance and length.
 
 #import core::field::contribution
 #import illes_fraglist::active
@@ -26,14 +27,12 @@ fn pass_separator(rank: u32, kind: u32, direction: vec3<f32>) {
     }
 }
 
-// The first point in [start, end] where the cubic reaches the threshold, or NO_ROOT. No separator lies
-// between the two.
 fn first_root(start: f32, end: f32) -> f32 {
     count_leaf_test();
     var values = vec2(-scene.threshold);
     var slopes = vec2(0.0);
-    for (var place = 0u; place < active::count; place++) {
-        let ball = active::balls[place];
+    for (var index = 0u; index < active::count; index++) {
+        let ball = active::balls[index];
         // Parts of the half interval from the ball's end: 0 there, 1 at the midpoint.
         let parts = clamp(1.0 - abs(vec2(start, end) - ball.middle) / ball.half, vec2(0.0), vec2(1.0));
         let rises = 0.5 * (start + end) < ball.middle;

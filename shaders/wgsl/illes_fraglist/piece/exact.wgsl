@@ -1,6 +1,6 @@
-// The field between two separators as the polynomial that it is: of degree four or six along a ray
-// for kernels of degree two or three in v = 1 - r²/R² (section 3: "it is also possible to use exact
-// polynomials for appropriately chosen density functions").
+// As the polynomial that it is: of degree four or six along a ray for kernels of degree two or three in
+// v = 1 - r²/R² (section 3: "it is also possible to use exact polynomials for appropriately chosen
+// density functions").
 
 #import illes_fraglist::active
 #import illes_fraglist::balls::ball_of_rank
@@ -24,14 +24,12 @@ fn pass_separator(rank: u32, kind: u32, direction: vec3<f32>) {
     }
 }
 
-// The first point in [start, end] where the field reaches the threshold, or NO_ROOT. No separator lies
-// between the two.
 fn first_root(start: f32, end: f32) -> f32 {
     count_leaf_test();
     count_evaluations(active::count);
     var sum = constant(-scene.threshold);
-    for (var place = 0u; place < active::count; place++) {
-        let ball = active::balls[place];
+    for (var index = 0u; index < active::count; index++) {
+        let ball = active::balls[index];
         let ends = (vec2(start, end) - ball.middle) / ball.radius;
         add_kernel(&sum, active::depth_of(ball), ends, ball.weight);
     }

@@ -1,9 +1,9 @@
-// The power kernel v^n along a chord in Bernstein form: v = 4a s(1-s), so v^n has one coefficient,
-// that of the middle, (4a)^n / (2n over n). The quartic has a module of its own.
+// The power kernel v^n: v = 4a s(1-s), so v^n has one coefficient, that of the middle,
+// (4a)^n / (2n over n). The quartic has a module of its own.
 
 #import exponent::exponent
 
-// Room for the greatest exponent, 8.
+// Enough for the greatest exponent, 8.
 struct Curve {
     d: array<f32, 17>,
 }
@@ -12,7 +12,6 @@ fn degree() -> u32 {
     return 2u * exponent();
 }
 
-// `a` is Q^2/R^2: half the chord over the radius, squared.
 fn along_chord(a: f32, strength: f32) -> Curve {
     // (2n over n) is the product of (n + k)/k for k from 1 to n.
     var middle = strength;

@@ -1,5 +1,4 @@
-// Wyvill's polynomial of degree six along a chord in Bernstein form (appendix A, equations 4 and 5,
-// with a = Q^2/R^2).
+// Wyvill's polynomial of degree six (appendix A, equations 4 and 5).
 
 struct Curve {
     d: array<f32, 7>,
@@ -9,7 +8,6 @@ fn degree() -> u32 {
     return 6u;
 }
 
-// `a` is Q^2/R^2: half the chord over the radius, squared.
 fn along_chord(a: f32, strength: f32) -> Curve {
     let scaled = strength * a * a;
     var curve = Curve();

@@ -1,7 +1,6 @@
-// Bézier clipping without a stack, what section 5.4 replaces: the paper describes the form of Pabst et
-// al. 2006 as iterative, with few registers and more iterations. Here a range and where it was split off
-// are all that is kept; what lies behind is made again from the whole curve once the range holds no
-// root.
+// Without a stack, what section 5.4 replaces: the paper describes the form of Pabst et al. 2006 as
+// iterative, with few registers and more iterations. Here a range and where it was split off are all that
+// is kept; what lies behind is made again from the whole curve once the range holds no root.
 
 #import kanamori_peel::bernstein::{Curve, degree}
 #import kanamori_peel::bezier::{

@@ -1,4 +1,4 @@
-// Bézier clipping as Nishita, Sederberg and Kakimoto 1990 have it, what section 5.4 builds on: every
+// As Nishita, Sederberg and Kakimoto 1990 have it, what section 5.4 builds on: every
 // curve is clipped by its hull, and split in two where that does not narrow it. The recursion's stack is
 // as deep as can be needed.
 

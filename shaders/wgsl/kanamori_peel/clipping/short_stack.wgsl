@@ -1,5 +1,4 @@
-// Recursive short-stack Bézier clipping (section 5.4): the first point of [0, 1] at which a curve in
-// Bernstein form is not negative.
+// The recursive short-stack form (section 5.4).
 
 #import kanamori_peel::bernstein::{Curve, degree}
 #import kanamori_peel::bezier::{

@@ -1,12 +1,11 @@
-// A ball's outline as the rectangle around it (section 5.1, appendix B): a strip of two triangles.
+// The rectangle around it (section 5.1, appendix B): a strip of two triangles.
 
 #import core::cover::{corner_of_cover, Cover}
 #import kanamori_peel::placed::Placed
 
-// Vertices of a ball; twin of `Outline::vertices` in kanamori-peel.
+// Twin of `Outline::vertices` in kanamori-peel.
 const VERTICES: u32 = 4u;
 
-// Clip position of a vertex, counted from 0.
 fn outline(vertex: u32, placed: Placed, to_center: vec3<f32>, radius: f32) -> vec4<f32> {
     return corner_of_cover(Cover(placed.low, placed.high), vertex);
 }

@@ -1,4 +1,4 @@
-// A ball's outline as a polyhedron around it, what section 5.1 replaces: 128 triangles, of which the
+// A polyhedron around it, what section 5.1 replaces: 128 triangles, of which the
 // faces away from the eye are drawn. Every ray that meets the ball leaves the polyhedron through one
 // of these, wherever the eye is.
 
@@ -20,7 +20,6 @@ const PIXEL_MARGIN: f32 = 0.05;
 // the ball, so where the ray is within 89 degrees of the view's middle none that matters is cut.
 const NEAR: f32 = 1e-4;
 
-// Clip position of a vertex, counted from 0.
 fn outline(vertex: u32, placed: Placed, to_center: vec3<f32>, radius: f32) -> vec4<f32> {
     if !is_drawn(placed) {
         return vec4(0.0, 0.0, 0.5, 1.0);

@@ -17,7 +17,7 @@ fn wgsl(module: &str, name: &str) -> StructLayout {
 fn host_structs_are_their_twins() {
     let twins = [
         (wgsl("core/hit", "Hit"), host_layout!(PackedHit { normal, t, status })),
-        (wgsl("core/view", "Ray"), host_layout!(PackedRay { direction, t_max })),
+        (wgsl("core/view", "PrimaryRay"), host_layout!(PackedRay { direction, t_max })),
         (
             wgsl("batch/free_ray", "FreeRay"),
             host_layout!(FreeRay { origin, t_max, direction, query }),

@@ -5,7 +5,7 @@ const THREADS: u32 = 256u;
 
 var<workgroup> sums: array<u32, THREADS>;
 
-// The sum of what the invocations before this one bring along. All of a workgroup must come here.
+// The sum of what the invocations before this one contribute. In uniform control flow.
 fn sum_before(thread: u32, own: u32) -> u32 {
     sums[thread] = own;
     workgroupBarrier();
