@@ -1,8 +1,8 @@
 // Balls in the order of a frame, and a ball along a ray (Illés and Szécsi, section 3, figure 5).
 
 #import core::scene::Support
-#import support::support_of
 #import core::view::{view, NO_LIMIT}
+#import support::support_of
 
 // Balls by rising effective distance. A ball's index here is its rank: lists hold ranks, so that
 // putting a list in order is sorting numbers, and equal distances have an order, too.

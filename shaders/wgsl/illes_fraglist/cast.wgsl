@@ -5,15 +5,15 @@
 #import color::{blend_add, blend_start, blend_write}
 #import core::field::{contribution, depth_below_rim, gradient, offset_at, outward_normal}
 #import core::hit
-#import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of, support_of_rank}
-#import illes_fraglist::budget
-#import illes_fraglist::overlap
-#import illes_fraglist::lists
-#import illes_fraglist::order
-#import illes_fraglist::piece
-#import illes_fraglist::records
 #import core::status::{report_finished, report_needed, report_unfinished}
 #import core::view::{in_picture, pixel_at, rays, view}
+#import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of, support_of_rank}
+#import illes_fraglist::budget
+#import illes_fraglist::lists
+#import illes_fraglist::order
+#import illes_fraglist::overlap
+#import illes_fraglist::piece
+#import illes_fraglist::records
 #import work::{count_layers, write_work}
 
 // The state of a pixel between two dispatches; zeros when the frame begins. Twin: Progress of

@@ -2,9 +2,9 @@
 // "lay down depth"). Drawn nearest first, so that later ones are hidden.
 
 #import core::cover::covering_corner
+#import core::view::{pixel_at, rays, NO_LIMIT}
 #import illes_fraglist::balls::{ball_of_rank, core_entry, core_radii}
 #import support::support_of
-#import core::view::{pixel_at, rays, NO_LIMIT}
 
 struct Corner {
     @builtin(position) position: vec4<f32>,

@@ -3,10 +3,10 @@
 // order; illes_fraglist::order does the rest.
 
 #import core::cover::covering_corner
-#import illes_fraglist::balls::{is_gathered, segment_of, support_of_rank}
-#import illes_fraglist::lists
 #import core::scene::scene
 #import core::view::{pixel_at, rays}
+#import illes_fraglist::balls::{is_gathered, segment_of, support_of_rank}
+#import illes_fraglist::lists
 
 struct Corner {
     @builtin(position) position: vec4<f32>,

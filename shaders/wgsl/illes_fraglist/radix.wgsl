@@ -3,9 +3,9 @@
 // there in order; so equal keys stay in the order of their balls. Workgroups wait for each other only
 // from dispatch to dispatch.
 
-#import illes_fraglist::balls::effective_distance
 #import core::prefix_sum::{sum_before, THREADS}
 #import core::scene::scene
+#import illes_fraglist::balls::effective_distance
 #import support::support_of
 
 struct Entry {

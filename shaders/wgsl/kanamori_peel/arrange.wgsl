@@ -5,11 +5,11 @@
 // The passes are place; then count and spread (256 balls a workgroup) with total (one workgroup)
 // between them: a prefix sum.
 
+#import core::scene::scene
+#import core::view::view
 #import kanamori_peel::arranged::{Arranged, MOST_ACTIVE}
 #import kanamori_peel::placed::{is_drawn, place_sphere, Placed}
-#import core::scene::scene
 #import support::support_of
-#import core::view::view
 
 // Whether balls that no pixel sees before the kernel spheres are left out.
 @id(32) override culling: bool = true;

@@ -1,12 +1,12 @@
 // Culling by kernel spheres (section 5.2): first their nearest distances as depth, then a flag for
 // every ball whose support some ray enters before that.
 
+#import core::view::{pixel_at, rays, view}
 #import kanamori_peel::arranged::{kernel_radii, placed}
 #import kanamori_peel::chord::chord_of
 #import kanamori_peel::frame::{from_depth, to_depth}
 #import kanamori_peel::outline::outline
 #import support::support_of
-#import core::view::{pixel_at, rays, view}
 
 @group(2) @binding(4) var<storage, read_write> seen: array<u32>;
 @group(3) @binding(0) var kernel_depth: texture_depth_2d;

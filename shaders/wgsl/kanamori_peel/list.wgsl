@@ -3,15 +3,15 @@
 #import color::{blend_add, blend_start, blend_write}
 #import core::field::{contribution, depth_below_rim, gradient, offset_at, outward_normal}
 #import core::hit
+#import core::scene::scene
+#import core::view::{view, PrimaryRay}
 #import kanamori_peel::arranged::{kernel_radii, MOST_ACTIVE}
 #import kanamori_peel::bernstein::{along_chord, Curve, degree}
 #import kanamori_peel::bezier::{LOST, NO_ROOT, part}
 #import kanamori_peel::chord::chord_of
 #import kanamori_peel::clipping::first_root
-#import core::scene::scene
 #import strength::strength
 #import support::support_of
-#import core::view::{view, PrimaryRay}
 #import work::{count_balls, count_leaf_test, count_search_end}
 
 // Outcomes of a search that are no distances.

@@ -1,12 +1,12 @@
 // One layer of depth peeling (section 4.1): of all supports, the nearest point beyond the last one
 // at which the ray enters or leaves.
 
+#import core::view::{pixel_at, rays, view}
 #import kanamori_peel::arranged::{placed, registered, tiles}
 #import kanamori_peel::chord::chord_of
 #import kanamori_peel::frame::to_depth
 #import kanamori_peel::outline::{outline, VERTICES}
 #import support::support_of
-#import core::view::{pixel_at, rays, view}
 
 // Nothing lies nearer to an eye outside a support than this.
 const NEAREST: f32 = 1e-30;

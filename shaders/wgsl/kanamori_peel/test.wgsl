@@ -2,12 +2,12 @@
 // with the update of the lists (sections 4.2 and 4.3), and the count of rays without an answer.
 
 #import core::hit
-#import kanamori_peel::list
-#import kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
-#import kanamori_peel::frame::from_depth
-#import kanamori_peel::tiles::{corner_of_tile, tile_of}
 #import core::status::report_unfinished
 #import core::view::{in_picture, pixel_at, rays, PrimaryRay, NO_LIMIT}
+#import kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
+#import kanamori_peel::frame::from_depth
+#import kanamori_peel::list
+#import kanamori_peel::tiles::{corner_of_tile, tile_of}
 #import work::{count_layers, write_work}
 
 // Whether kernel spheres were drawn, see kanamori_peel::arrange.

@@ -1,9 +1,9 @@
 // Any kernel, by a branch wherever a value is needed. Formulas and order of operations are those of the
 // kernel's own module.
 
-#import exponent::exponent
 #import core::kernel_read::{kernel_read, PERLIN, POWER}
 #import core::powers::power
+#import exponent::exponent
 
 fn kernel(v: f32) -> f32 {
     let depth = max(v, 0.0);

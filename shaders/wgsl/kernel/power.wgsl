@@ -1,7 +1,7 @@
 // The power kernel v^alpha, alpha from 1 to 8 (Gourmel et al. 2010, section 2.1).
 
-#import exponent::exponent
 #import core::powers::power
+#import exponent::exponent
 
 fn kernel(v: f32) -> f32 {
     return power(max(v, 0.0), exponent());

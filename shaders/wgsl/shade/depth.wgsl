@@ -1,8 +1,8 @@
 // Distances as grey: white at the near end of the scale, dark at the far end, black for none.
 
 #import core::hit::{hits, HIT, INSIDE}
-#import shade::picture::{put_encoded, on_scale}
 #import core::view::{in_picture, pixel_at}
+#import shade::picture::{put_encoded, on_scale}
 
 @compute @workgroup_size(8, 8)
 fn shade(@builtin(global_invocation_id) invocation: vec3<u32>) {

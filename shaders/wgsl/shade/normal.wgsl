@@ -1,8 +1,8 @@
 // Normals as colours: red to the right, green upwards, blue towards the eye; black for none.
 
 #import core::hit::{hits, unfold, HIT, INSIDE}
-#import shade::picture::put_encoded
 #import core::view::{view, in_picture, pixel_at}
+#import shade::picture::put_encoded
 
 @compute @workgroup_size(8, 8)
 fn shade(@builtin(global_invocation_id) invocation: vec3<u32>) {

@@ -1,10 +1,10 @@
 // The lit surface.
 
-#import shade::base::base_color
 #import core::hit::{hits, unfold, HIT, INSIDE, MISS}
+#import core::view::{rays, in_picture, pixel_at}
+#import shade::base::base_color
 #import shade::light::{phong, from_within, background, ALARM}
 #import shade::picture::put_light
-#import core::view::{rays, in_picture, pixel_at}
 
 @compute @workgroup_size(8, 8)
 fn shade(@builtin(global_invocation_id) invocation: vec3<u32>) {

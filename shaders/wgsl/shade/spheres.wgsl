@@ -2,10 +2,10 @@
 // 2008, figure 11 left). A rectangle a ball bounds it on the picture; a fragment intersects its ray.
 
 #import core::cover::covering_corner
-#import shade::light::{phong, from_within, background}
 #import core::make_ray::direction_through
 #import core::srgb::{decode, encode}
 #import core::view::view
+#import shade::light::{phong, from_within, background}
 
 // Twin of `CoreSphere` in metaball-core.
 struct CoreSphere {

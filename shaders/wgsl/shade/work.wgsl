@@ -1,8 +1,8 @@
 // What each pixel cost, as a heat map.
 
-#import shade::picture::{put_encoded, on_scale}
 #import core::view::{in_picture, pixel_at}
 #import core::work_record::{Work, work_of_pixel}
+#import shade::picture::{put_encoded, on_scale}
 
 // Which counter: its index in `Work`. Id 1 of the ids that metaball-core sets.
 @id(1) override counter: u32 = 0u;

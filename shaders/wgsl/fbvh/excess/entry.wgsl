@@ -37,7 +37,7 @@ fn bounds_on(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> Bou
                 most += q * kernel(v.most);
                 end_least += q * kernel(v.end - v.end_margin);
                 end_most += q * kernel(v.end + v.end_margin);
-                // The derivative by t is 2 q kernel'(v) (middle - t)/R^2: least at the interval's end.
+                // Its slope is 2 q kernel'(v) (middle - t)/R^2: least at the interval's end.
                 let to_start = low - seen.middle;
                 let to_end = high - seen.middle;
                 let steep = 2.0 * q * seen.inverse_square;

@@ -38,7 +38,7 @@ fn bounds_on(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> Bou
                 least += q * kernel(v.least);
                 end_most += q * kernel(v.end + v.end_margin);
                 end_least += q * kernel(v.end - v.end_margin);
-                // The excess' derivative by t is 2 q kernel'(v) (t - middle)/R^2: least at the interval's start.
+                // Its slope is 2 q kernel'(v) (t - middle)/R^2: least at the interval's start.
                 let to_start = low - seen.middle;
                 let to_end = high - seen.middle;
                 let steep = 2.0 * q * seen.inverse_square;

@@ -1,15 +1,14 @@
 // The rest of the ray is searched without the array, in intervals that each take one walk along the list.
 // It costs time, and the picture stays right.
 
-#import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of}
-#import illes_fraglist::balls::support_of_rank
-#import illes_fraglist::polynomial_root::first_root_of_polynomial
+#import core::scene::scene
+#import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of, support_of_rank}
 #import illes_fraglist::budget
 #import illes_fraglist::cubic_root::NO_ROOT
 #import illes_fraglist::lists
 #import illes_fraglist::polynomial::{add_kernel, constant, Polynomial}
+#import illes_fraglist::polynomial_root::first_root_of_polynomial
 #import kernel::kernel
-#import core::scene::scene
 #import strength::strength
 #import work::{count_evaluations, count_leaf_test}
 

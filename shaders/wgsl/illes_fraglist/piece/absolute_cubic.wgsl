@@ -3,10 +3,10 @@
 // the eye and by half a ball at thirty; it is here to show that.
 
 #import core::field::contribution
+#import core::scene::scene
 #import illes_fraglist::balls::{ball_of_rank, segment_of, support_of_rank}
 #import illes_fraglist::cubic_root::{first_root_of_cubic, NO_ROOT}
 #import illes_fraglist::records::{ENTER, LEAVE}
-#import core::scene::scene
 #import work::{count_balls, count_evaluations, count_leaf_test}
 
 // w of the paper.

@@ -7,12 +7,12 @@
 // distance and length.
 
 #import core::field::contribution
+#import core::scene::scene
 #import illes_fraglist::active
 #import illes_fraglist::balls::ball_of_rank
 #import illes_fraglist::budget
 #import illes_fraglist::cubic_root::{first_root_of_cubic, NO_ROOT}
 #import illes_fraglist::records::{ENTER, LEAVE}
-#import core::scene::scene
 #import work::{count_evaluations, count_leaf_test}
 
 // A ball's weight is γ, its field at the midpoint.

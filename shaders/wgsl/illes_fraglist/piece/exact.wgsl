@@ -2,14 +2,14 @@
 // v = 1 - r²/R² (section 3: "it is also possible to use exact polynomials for appropriately chosen
 // density functions").
 
+#import core::scene::scene
 #import illes_fraglist::active
 #import illes_fraglist::balls::ball_of_rank
-#import illes_fraglist::polynomial_root::first_root_of_polynomial
 #import illes_fraglist::budget
 #import illes_fraglist::cubic_root::NO_ROOT
 #import illes_fraglist::polynomial::{add_kernel, constant, Polynomial}
+#import illes_fraglist::polynomial_root::first_root_of_polynomial
 #import illes_fraglist::records::{ENTER, LEAVE}
-#import core::scene::scene
 #import strength::strength
 #import work::{count_evaluations, count_leaf_test}
 

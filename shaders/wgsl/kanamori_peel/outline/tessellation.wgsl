@@ -3,8 +3,8 @@
 // of these, wherever the eye is.
 
 #import core::hit::unfold
-#import kanamori_peel::placed::{is_drawn, Placed}
 #import core::view::view
+#import kanamori_peel::placed::{is_drawn, Placed}
 
 // Squares on a side of the unfolded octahedron, and vertices of a ball, two triangles a square; the
 // latter's twin is `Outline::vertices` in kanamori-peel.
