@@ -1,4 +1,4 @@
-//! What can be wrong with a scene that was asked for.
+//! What can be wrong with a spec.
 
 use metaball_core::{CameraError, SceneError, ViewError};
 use thiserror::Error;
@@ -14,7 +14,7 @@ pub enum LoadError {
          of these also with .gz"
     )]
     Unknown {
-        /// What was asked for.
+        /// The spec.
         spec: String,
         /// Names of known scenes, separated by commas.
         known: String,
@@ -30,7 +30,7 @@ pub enum LoadError {
          frame-%04d.xyz, or a scene file that names such particles\n  a .frames file"
     )]
     Still {
-        /// What was asked for.
+        /// The spec.
         spec: String,
         /// Names of moving scenes, separated by commas.
         known: String,

@@ -10,10 +10,10 @@ use crate::figures::{self, ScenePath};
 use crate::generate;
 use crate::small::{self, Shot};
 
-/// A scene that [`load`](crate::load()) knows by name.
+/// A scene that has a name.
 #[derive(Debug)]
 pub struct KnownScene {
-    /// What to ask for.
+    /// The spec that [`load`](crate::load()) takes.
     pub name: &'static str,
     /// One sentence on what it shows.
     pub about: &'static str,

@@ -9,7 +9,7 @@ use crate::small::Shot;
 /// A family of scenes with a parameter.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// What to ask for.
+    /// The name by which a run chooses it.
     pub name: &'static str,
     /// What it is about.
     pub category: Category,

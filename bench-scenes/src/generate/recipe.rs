@@ -14,10 +14,10 @@ use crate::random::Random;
 /// The seed of specs that name none.
 const SEED: u64 = 1;
 
-/// The most balls a spec may ask for: 2²⁴, two gigabytes while they are laid out.
+/// The most balls of a spec: 2²⁴, two gigabytes while they are laid out.
 const MOST_BALLS: usize = 1 << 24;
 
-/// What a spec asks for.
+/// What a spec says.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Recipe {
     generator: &'static Generator,
@@ -26,7 +26,7 @@ pub(crate) struct Recipe {
     seed: u64,
 }
 
-/// What `name:count[:density[:seed]]` asks for; `None` when the first word is no generator's.
+/// What `name:count[:density[:seed]]` says; `None` when the first word is no generator's.
 pub(crate) fn parse(spec: &str) -> Result<Option<Recipe>, LoadError> {
     let (name, numbers) = spec.split_once(':').unwrap_or((spec, ""));
     let Some(generator) = generators().iter().find(|generator| generator.name == name) else {

@@ -6,10 +6,21 @@
 
 use std::error::Error;
 use std::io::{Write, stdout};
+use std::process::ExitCode;
 
 use particle_files::{Overrides, load};
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match describe() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn describe() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("needed FILE")?;
     let loaded = load(path, &Overrides::default())?;
     let (scene, bounds) = (&loaded.scene, loaded.scene.bounds());

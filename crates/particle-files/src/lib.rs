@@ -32,7 +32,10 @@
 //! );
 //! ```
 //!
-//! No bytes make reading panic.
+//! No bytes make reading panic: a panic of the crate `pdbtbx`, which reads structures, is caught and becomes
+//! an error. So that it prints nothing, the first structure installs a panic hook, which hands on the panics
+//! of everything else.
+//!
 #![doc = include_str!("../FORMATS.md")]
 
 mod elements;

@@ -57,7 +57,6 @@ impl Sequence {
     pub fn open(path: impl AsRef<Path>, overrides: &Overrides) -> Result<Self, LoadError> {
         let path = path.as_ref();
         let name = path.display().to_string();
-        let is_numbered = |particles: &Path| particles.display().to_string().contains('%');
         let (particles, kernel, threshold, camera) = match file::ending(path).as_deref() {
             Some(PackedFrames::ENDING) => {
                 let content = PackedFrames::content(&file::read(path)?);
@@ -73,7 +72,7 @@ impl Sequence {
                 (path.to_owned(), DEFAULT_KERNEL, DEFAULT_THRESHOLD, None)
             }
         };
-        if !is_numbered(&particles) {
+        if !particles.file_name().is_some_and(|name| name.to_string_lossy().contains('%')) {
             return Err(LoadError::NotASequence { file: name });
         }
         let (files, range, camera) = NumberedFiles::open(&particles, kernel, threshold, camera)?;
@@ -105,7 +104,7 @@ impl Sequence {
         &self.name
     }
 
-    /// What it was asked to change about every scene.
+    /// What replaces every scene's own choices.
     pub fn overrides(&self) -> &Overrides {
         &self.overrides
     }
