@@ -130,7 +130,7 @@ fn right_names_pass() {
         shaders/wgsl/kernel/power.wgsl, kernel/power.wgsl, trace.wgsl, README.md, docs/one.md";
     assert_eq!(reported(rust, &format!("//! {names}")), [""; 0]);
     assert_eq!(reported("shaders/wgsl/kernel/any.wgsl", "// v as in power.wgsl"), [""; 0]);
-    let text = "[one](one.md#part), `../README.md`, `crates/sphere/`, `sphere/{leaf,trace}.wgsl`";
+    let text = "[one.md](one.md#part), [`lib.rs`](../crates/sphere/src/lib.rs), `../README.md`, `crates/sphere/`, `sphere/{leaf,trace}.wgsl`";
     assert_eq!(reported("docs/one.md", text), [""; 0]);
 }
 

@@ -17,14 +17,15 @@ const SOURCES: [&str; 3] = [".rs", ".wgsl", ".md"];
 /// The names in a line of a file.
 pub(crate) fn in_line(tree: &Tree, file: &str, line: &Line) -> Vec<Name> {
     let mut names = Vec::new();
-    let mut text = line.text.clone();
-    if file.ends_with(".md") && !line.is_code {
-        for target in links(&line.text) {
-            text = text.replacen(&format!("]({target})"), "]", 1);
-            let path = target.split('#').next().unwrap_or_default().to_owned();
-            if !path.is_empty() && !target.contains("://") {
-                names.push(Name { path, is_link: true });
-            }
+    let (text, targets) = if file.ends_with(".md") && !line.is_code {
+        without_links(&line.text)
+    } else {
+        (line.text.clone(), Vec::new())
+    };
+    for target in targets.iter().filter(|target| !target.contains("://")) {
+        let path = target.split('#').next().unwrap_or_default().to_owned();
+        if !path.is_empty() {
+            names.push(Name { path, is_link: true });
         }
     }
     // Odd pieces stand between backticks.
@@ -44,10 +45,20 @@ pub(crate) fn in_line(tree: &Tree, file: &str, line: &Line) -> Vec<Name> {
     names
 }
 
-/// Targets of the links in a line of Markdown.
-fn links(text: &str) -> Vec<String> {
-    let targets = text.split("](").skip(1);
-    targets.filter_map(|rest| Some(rest.split_once(')')?.0.to_owned())).collect()
+/// A line of Markdown without its links, and their targets.
+fn without_links(text: &str) -> (String, Vec<String>) {
+    let mut prose = String::new();
+    let mut targets = Vec::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("](")
+        && let Some((target, after)) = after.split_once(')')
+    {
+        // The words of a link are explained by its target.
+        prose += before.rsplit_once('[').map_or(before, |(before, _)| before);
+        targets.push(target.to_owned());
+        rest = after;
+    }
+    (prose + rest, targets)
 }
 
 /// Whether a letter can stand in a path, a pattern or an address.
