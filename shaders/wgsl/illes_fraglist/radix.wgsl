@@ -21,7 +21,7 @@ struct Table {
     offsets: array<u32>,
 }
 
-// Entries of a workgroup, and of one of its invocations: BLOCK of crates/illes-fraglist/src/radix.rs.
+// Entries of a workgroup, and of one of its invocations: BLOCK of crates/illes-fraglist/src/sort/adapter.rs.
 const BLOCK: u32 = 1024u;
 const RUN: u32 = 8u;
 const GROUP: u32 = 128u;
