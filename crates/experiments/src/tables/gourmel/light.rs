@@ -114,11 +114,11 @@ mod tests {
         let gains = &measurements.gains;
         assert!(gains.iter().all(|row| row.fitted.is_some() && row.certified.is_some()));
         assert!(measurements.runs.iter().all(|run| run.frame_ms.samples.len() == 2));
-        // Feelers are sent where there are shadows, and nowhere else.
-        let feels = |run: &Run| run.passes.contains_key("any hits");
+        // Shadow and occlusion rays are sent where there are such effects, and nowhere else.
+        let sends_them = |run: &Run| run.passes.contains_key("any hits");
         for run in &measurements.runs {
             let wanted = run.effect.contains("shadow") || run.effect.contains("occlusion");
-            assert_eq!(feels(run), wanted, "{run:?}");
+            assert_eq!(sends_them(run), wanted, "{run:?}");
         }
 
         let text = serde_json::to_string(&measurements).expect("JSON");

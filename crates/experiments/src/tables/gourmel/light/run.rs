@@ -162,7 +162,7 @@ impl Run {
 pub enum PassKind {
     /// Rays that seek their first hit: primary and mirrored ones.
     FirstHits,
-    /// Rays that feel for light.
+    /// Shadow and occlusion rays.
     AnyHits,
     /// Dispatches that take rays up again, most of them empty.
     Resuming,
