@@ -118,7 +118,7 @@
 //!   with colours `blend_start`, `blend_add` and `blend_write` write the hit's colour.
 //! - A pool, list or limit that was too small for a frame is reported by `report_needed(slot, capacity)`;
 //!   [`grow`](IsoRenderer::grow) enlarges it, and [`render`] draws the frame again.
-//! - `count_balls`, `count_evaluations` and their like count [`Work`], and `write_work(pixel)`
+//! - `count_balls`, `count_evaluations` and their like count [`Work`](crate::Work), and `write_work(pixel)`
 //!   stores it. Without [`Specialization::counting`] they compile to nothing, so that they stand in every shader.
 //! - What tables print of a scene are the facts of [`BuildReport`], of a frame
 //!   [`frame_facts`](IsoRenderer::frame_facts); memory is in [`BuildReport::device_bytes`] and
