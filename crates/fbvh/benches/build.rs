@@ -1,5 +1,6 @@
 //! How long building takes, in balls a second: scattered balls for its growth with their number, a
-//! dense cloud and a tank of fluid for its growth with their overlap. What building makes is printed before: list entries a ball, and leaves.
+//! dense cloud and a tank of fluid for its growth with their overlap. The size of each tree is printed
+//! before: list entries per ball, and leaves.
 
 use std::hint::black_box;
 
@@ -77,7 +78,7 @@ fn build(criterion: &mut Criterion) {
             let stats = Tree::build(&scene, &options).expect("legal options").stats();
             let entries = stats.list_entries as f64 / scene.len() as f64;
             eprintln!(
-                "{structure}/{name}: {entries:.1} list entries a ball, {} leaves",
+                "{structure}/{name}: {entries:.1} list entries per ball, {} leaves",
                 stats.leaves
             );
             group.bench_with_input(BenchmarkId::new(structure, &name), &scene, |bencher, scene| {

@@ -7,6 +7,7 @@ mod ball;
 mod branch;
 mod classified;
 mod error;
+mod field_range;
 mod fit;
 mod fitted;
 mod modified;

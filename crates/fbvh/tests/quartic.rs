@@ -1,4 +1,5 @@
-//! The bounds of `fbvh/polynomial_test/quartic.wgsl`, formed in f32 as the shader does, hold the field in f64.
+//! The bounds of the polynomial test, `shaders/wgsl/fbvh/polynomial_test/quartic.wgsl`, formed in f32 as
+//! the shader does, enclose the field in f64.
 
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
@@ -20,7 +21,7 @@ struct Bounds {
     lower: [f32; 5],
 }
 
-/// What `look` sums up.
+/// The sums of the polynomial test.
 fn bounds(balls: &[Ball], direction: Vec3, low: f32, high: f32) -> Bounds {
     let (mut most, mut least) = ([0.0f32; 5], [0.0f32; 5]);
     let mut error = 0.0f32;
@@ -93,12 +94,12 @@ proptest! {
     #[test]
     fn the_field_is_between(
         balls in prop::collection::vec(any_ball(), 1..12),
-        way in vectors(1.0),
+        toward in vectors(1.0),
         start in -1.0f32..1.0,
         length in prop::sample::select(vec![1.5f32, 0.3, 1e-2, 1e-4]),
     ) {
-        prop_assume!(way.length() > 0.1);
-        let direction = way.normalize();
+        prop_assume!(toward.length() > 0.1);
+        let direction = toward.normalize();
         let (low, high) = (start, start + length);
         let Bounds { upper, lower } = bounds(&balls, direction, low, high);
         for step in 0..=64 {

@@ -143,7 +143,7 @@ fn batches_are_single_rays_and_counting_changes_nothing() {
     }
 }
 
-/// Rays of a camera that frames the scene, so many each way.
+/// Rays of a camera that frames the scene, so many in a row and in a column.
 fn rays_at(scene: &Scene, pixels: u32) -> Vec<Ray> {
     let camera = Camera::framing(&scene.bounds(), Vec3::new(0.5, 0.3, 1.0));
     (0..pixels * pixels)
@@ -185,7 +185,7 @@ fn assumption_holds(scene: &Scene, ray: &Ray, truth: &Truth, kind: Kind) -> bool
 /// The search ends where |F − T| ≤ 1e-5 T as computed; the computation is off by at most
 /// (n + 8) w Σ q, plus, per ball, a position off by 4 w (distance + R), which moves v by twice that
 /// over R and the kernel by its slope, at most 8 (α = 8), times as much. The point is where F is
-/// within that of T: between the true crossings of T(1 ± ε), which the oracle is asked for.
+/// within that of T: between the true crossings of T(1 ± ε), which the oracle finds.
 fn tolerated_share(scene: &Scene, ray: &Ray, truth: &Truth) -> f64 {
     const ROUNDOFF: f64 = 1.0 / (1 << 24) as f64;
     let point = ray.origin.as_dvec3() + truth.t * ray.direction.as_dvec3();
@@ -392,7 +392,7 @@ fn exits_of_rays_that_start_outside_are_at_their_start() {
     let scene = Scene::new([Metaball::new(Vec3::ZERO, 1.0)], Kernel::QUARTIC, 0.25).expect("legal");
     let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
     let tracer = Tracer::new(&tree, &scene);
-    // The quartic is 0.25 at r = 0.7071: beside every leaf, and in the corner of one.
+    // The quartic is 0.25 at r = 0.7071: outside of every leaf, and in the corner of one.
     for start in [Vec3::X, Vec3::splat(0.6)] {
         let exit = tracer.first_exit(&Ray::new(start, Vec3::NEG_X)).expect("a certified tree");
         assert_eq!((exit.verdict, exit.t), (Verdict::Inside, 0.0), "{start}");
@@ -435,8 +435,8 @@ proptest! {
             let target = scale * Vec3::from(target);
             let center = balls.get(at).map_or(target, |ball| ball.center);
             let (start, end) = if at % 3 == 0 { (center, target) } else { (far, center) };
-            let way = DVec3::from(end) - DVec3::from(start);
-            let ray = Ray::new(start, way.normalize_or(DVec3::X).as_vec3());
+            let offset = DVec3::from(end) - DVec3::from(start);
+            let ray = Ray::new(start, offset.normalize_or(DVec3::X).as_vec3());
             let complaint = false_answer(&tracer, (&scene, &oracle), &ray);
             prop_assert!(complaint.is_none(), "{ray:?}: {complaint:?}");
             let limited = Ray { t_max: scale, ..ray };

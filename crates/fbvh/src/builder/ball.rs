@@ -68,7 +68,7 @@ pub(super) fn bounds_of(balls: &[Ball]) -> Aabb {
 
 /// The part of a box around spheres about the balls' centres, of the radii that are given. No point of
 /// a sphere is lost to rounding: the box around them is a float wider on every side. Ends with the ball
-/// that completes the whole of `bounds`: in dense places one of the first.
+/// that completes the whole of `bounds`: in dense regions one of the first.
 #[inline]
 pub(super) fn bounds_within(bounds: &Aabb, balls: &[Ball], radius: impl Fn(&Ball) -> f32) -> Aabb {
     let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));

@@ -8,7 +8,7 @@ use metaball_core::Aabb;
 use super::ball::Ball;
 use crate::options::Cost;
 
-/// The most bins that [`Options::bins`](crate::Options::bins) may ask for.
+/// The upper limit of [`Options::bins`](crate::Options::bins).
 pub(super) const MAX_BINS: usize = 16;
 
 /// A plane across an axis, and what cutting there is expected to cost.

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::Kind;
 
-/// A [`Tracer`](crate::Tracer) was asked for what its kind of tree does not have.
+/// Why a tracer or a renderer cannot do what was asked of it: its kind of tree does not have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TraceError {

@@ -7,7 +7,7 @@ use super::field_tree::FieldTree;
 use super::secant::{LeafSearch, SecantSearch};
 use crate::{Field, Kind};
 
-/// A published tree with the way its leaves are searched.
+/// A published tree, and how its leaves are searched.
 pub(super) struct Published<'a, F> {
     pub(super) tree: &'a FieldTree<'a, F>,
     pub(super) options: &'a SecantSearch,

@@ -109,19 +109,19 @@ impl Balls {
     pub(super) fn cull(&mut self, packet: &Packet, relative: &RelativePacket, lane: usize) {
         let zero = Lanes::splat(0.0f32);
         let (mut start, mut end) = (zero, zero);
-        let (mut from, mut way) = ([zero; 3], [zero; 3]);
+        let (mut from, mut span) = ([zero; 3], [zero; 3]);
         for axis in 0..3 {
             let origin = relative.origin[axis].map(|x| x as f32);
-            let half_way = packet.direction[axis] * relative.half;
-            let (near, far) = (origin - half_way, origin + half_way);
+            let half_span = packet.direction[axis] * relative.half;
+            let (near, far) = (origin - half_span, origin + half_span);
             from[axis] = Lanes::splat(near.0[lane]);
-            way[axis] = Lanes::splat(far.0[lane] - near.0[lane]);
+            span[axis] = Lanes::splat(far.0[lane] - near.0[lane]);
             let (near, far) = (near - from[axis], far - Lanes::splat(far.0[lane]));
             start += near * near;
             end += far * far;
         }
         let spread = start.max(end).sqrt() + relative.reach * ROUNDED;
-        let square = length_squared(way);
+        let square = length_squared(span);
         // Where f32 overflows no ball is culled.
         let is_finite = (spread + square).0.iter().all(|number| number.is_finite());
         let widest = spread.0.into_iter().fold(0.0f32, f32::max);
@@ -131,9 +131,9 @@ impl Balls {
         for (at, block) in self.blocks.iter().enumerate() {
             let [x, y, z] = block.center;
             let (x, y, z) = (x - from[0], y - from[1], z - from[2]);
-            let t = (x * way[0] + y * way[1] + z * way[2]) * inverse;
+            let t = (x * span[0] + y * span[1] + z * span[2]) * inverse;
             let t = t.min(Lanes::splat(1.0)).max(zero);
-            let distance = length_squared([x - way[0] * t, y - way[1] * t, z - way[2] * t]);
+            let distance = length_squared([x - span[0] * t, y - span[1] * t, z - span[2] * t]);
             let reach = block.radius.map(|radius| radius + spread);
             let near = block.balls & !(reach * reach).is_less(distance).bits();
             self.kept.extend(lanes_of(near).map(|lane| (WIDTH * at + lane) as u32));
