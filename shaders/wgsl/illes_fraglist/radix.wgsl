@@ -73,7 +73,7 @@ fn count_digits(
 }
 
 @compute @workgroup_size(256)
-fn place_digits(@builtin(local_invocation_index) thread: u32) {
+fn scan_digits(@builtin(local_invocation_index) thread: u32) {
     let all = DIGITS * blocks();
     let run = (all + THREADS - 1u) / THREADS;
     let first = min(thread * run, all);

@@ -26,7 +26,7 @@ fn count_entries(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_work
 
 // Turns counts into offsets, in one workgroup: each invocation adds up a run of tiles.
 @compute @workgroup_size(256)
-fn place_tiles(@builtin(local_invocation_index) thread: u32) {
+fn scan_tiles(@builtin(local_invocation_index) thread: u32) {
     let run = MOST_TILES / THREADS;
     var sum = 0u;
     var longest = 0u;

@@ -20,7 +20,7 @@ const PASSES: usize = 8;
 pub(crate) struct RadixSort {
     make: wgpu::ComputePipeline,
     count: wgpu::ComputePipeline,
-    place: wgpu::ComputePipeline,
+    scan: wgpu::ComputePipeline,
     spread: wgpu::ComputePipeline,
     take: wgpu::ComputePipeline,
 }
@@ -47,7 +47,7 @@ impl RadixSort {
         Ok(Self {
             make: step("make_entries")?,
             count: step("count_digits")?,
-            place: step("place_digits")?,
+            scan: step("scan_digits")?,
             spread: step("spread_entries")?,
             take: step("take_order")?,
         })
@@ -76,7 +76,7 @@ impl RadixSort {
             for digit in 0..PASSES {
                 let group = if digit % 2 == 0 { &buffers.to_second } else { &buffers.to_first };
                 step(&self.count, blocks, group);
-                step(&self.place, (1, 1), group);
+                step(&self.scan, (1, 1), group);
                 step(&self.spread, blocks, group);
             }
             step(&self.take, single, &buffers.to_second);

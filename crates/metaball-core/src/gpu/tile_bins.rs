@@ -19,7 +19,7 @@ const BALLS_OF_GROUP: u32 = 64;
 #[derive(Debug)]
 pub struct TileBinning {
     count: wgpu::ComputePipeline,
-    place: wgpu::ComputePipeline,
+    scan: wgpu::ComputePipeline,
     fill: wgpu::ComputePipeline,
 }
 
@@ -31,7 +31,7 @@ pub struct TileBins {
 }
 
 impl TileBinning {
-    /// Pipelines of the entry points `count_entries`, `place_tiles` and `fill_entries` of a shader.
+    /// Pipelines of the entry points `count_entries`, `scan_tiles` and `fill_entries` of a shader.
     ///
     /// # Errors
     /// When wgpu refuses one.
@@ -45,7 +45,7 @@ impl TileBinning {
         let step = |entry| shader.compute(gpu, label, entry, spec, layouts, &[]);
         Ok(Self {
             count: step("count_entries")?,
-            place: step("place_tiles")?,
+            scan: step("scan_tiles")?,
             fill: step("fill_entries")?,
         })
     }
@@ -55,7 +55,7 @@ impl TileBinning {
         let (columns, rows) = workgroup_grid(balls.div_ceil(BALLS_OF_GROUP));
         pass.set_pipeline(&self.count);
         pass.dispatch_workgroups(columns, rows, 1);
-        pass.set_pipeline(&self.place);
+        pass.set_pipeline(&self.scan);
         pass.dispatch_workgroups(1, 1, 1);
         pass.set_pipeline(&self.fill);
         pass.dispatch_workgroups(columns, rows, 1);
@@ -91,7 +91,7 @@ impl TileBins {
         encoder.clear_buffer(&self.marks, 0, None);
     }
 
-    /// Bytes on the device.
+    /// Bytes on the adapter.
     pub fn bytes(&self) -> u64 {
         self.marks.size() + self.entries.size()
     }
