@@ -1,4 +1,4 @@
-// A surrounding from an equirectangular image: columns go around the second axis, from -z over +x;
+// The environment as an equirectangular image: columns go around the second axis, from -z over +x;
 // rows from the zenith to the nadir.
 
 #import light::path::settings

@@ -1,4 +1,4 @@
-// A generated surrounding: a clear sky over a studio floor, brightest at the horizon. The second axis
+// A generated environment: a clear sky over a studio floor, brightest at the horizon. The second axis
 // points to the zenith.
 
 fn environment(direction: vec3<f32>) -> vec3<f32> {
