@@ -10,6 +10,14 @@ use crate::run::{cargo, quieten, say, succeeds, to_the_end};
 /// is found by the next as a freshly packed archive.
 const PUBLISHED: [&str; 3] = ["metaball-shaders", "metaball-core", "fbvh"];
 
+/// The folder of a method in a crate of its own, outside of the workspace. It takes the workspace's
+/// versions of dependencies and its target folder, so that little is built twice.
+macro_rules! own_method {
+    () => {
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/own-method/")
+    };
+}
+
 /// One thing to check: what it is called, cargo's arguments, and an environment variable.
 struct Step {
     title: &'static str,
@@ -31,6 +39,9 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
     }
 
     forget_packed();
+    let lock = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.lock");
+    fs::copy(lock, concat!(own_method!(), "Cargo.lock"))
+        .map_err(|error| format!("Cargo.lock: cannot be copied to tests/own-method: {error}"))?;
     for step in steps(environment) {
         say(&format!("── {}", step.title));
         let mut command = cargo();
@@ -52,6 +63,10 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
             .to_owned()),
     }
 }
+
+const OWN_METHOD: &str = concat!(own_method!(), "Cargo.toml");
+const OWN_FORMATTING: [&str; 4] = ["fmt", "--manifest-path", OWN_METHOD, "--check"];
+const TARGET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target");
 
 /// Where packing checks its packages: a folder of its own, new each time.
 const PACKAGES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/packages");
@@ -82,6 +97,9 @@ fn forget_packed() {
 fn steps(gpu: Option<(&'static str, &'static str)>) -> Vec<Step> {
     let mut package = vec!["package", "--quiet", "--allow-dirty", "--target-dir", PACKAGES];
     package.extend(PUBLISHED.into_iter().flat_map(|name| ["--package", name]));
+    let mut own =
+        vec!["test", "--quiet", "--manifest-path", OWN_METHOD, "--target-dir", TARGET, "--"];
+    own.extend(gpu.map(|_| "--include-ignored"));
     let step = |title, arguments: &[&'static str], environment| Step {
         title,
         arguments: arguments.to_vec(),
@@ -89,12 +107,14 @@ fn steps(gpu: Option<(&'static str, &'static str)>) -> Vec<Step> {
     };
     vec![
         step("formatting", &["fmt", "--all", "--check"], None),
+        step("formatting of a method of one's own", &OWN_FORMATTING, None),
         step(
             "lints",
             &["clippy", "--workspace", "--all-targets", "--all-features", "--", "-Dwarnings"],
             None,
         ),
         step("tests", &["test", "--workspace", "--all-features", "--no-fail-fast"], gpu),
+        step("a method of one's own", &own, gpu),
         step(
             "documentation",
             &["doc", "--workspace", "--all-features", "--no-deps"],

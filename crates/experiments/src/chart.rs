@@ -27,6 +27,7 @@ use harness::comparison::{self, compare_scene, steps};
 use harness::configuration::Configuration;
 use harness::machine::Provenance;
 use harness::measure::Sampling;
+use harness::methods::Method;
 use harness::numbers::decimal;
 use harness::output::write_json;
 use harness::record::{Adapter, Record, Status};
@@ -43,6 +44,8 @@ pub struct Order {
     pub extent: Extent,
     /// Scenes for error against time, in the place of the extent's own.
     pub scenes: Vec<String>,
+    /// The methods that take part; all where there are none.
+    pub methods: Vec<&'static Method>,
     /// Pixels across and down; where it is left open 640 × 480, on an adapter that computes on the
     /// CPU 320 × 240, and 64 × 48 when quick.
     pub size: Option<(u32, u32)>,
@@ -110,7 +113,7 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
     let gpu = Gpu::new(&order.adapter)?;
     console::note(&gpu.report().to_string());
     let path = order.out.join("chart.json");
-    let plan = plan(order.extent, &order.scenes);
+    let plan = plan(order.extent, &order.scenes, &order.methods);
     let mut chart = Chart::begin(&gpu, order);
     let previous = read(&path)?.filter(|previous| previous.is_like(&chart));
     let mut before = None;
@@ -359,12 +362,13 @@ mod tests {
         let order = Order {
             extent: Extent::Quick,
             scenes: vec!["two-merging".to_owned()],
+            methods: Vec::new(),
             size: Some((32, 24)),
             adapter: AdapterChoice::Environment,
             out: folder.path().to_owned(),
             fresh: false,
         };
-        let mut plan = plan(Extent::Quick, &order.scenes);
+        let mut plan = plan(Extent::Quick, &order.scenes, &[]);
         plan.truncate(2);
         for planned in &mut plan {
             let kept = ["fbvh", "fbvh, tolerance 1e-2", "illes"];
@@ -406,12 +410,13 @@ mod tests {
         let order = Order {
             extent: Extent::Quick,
             scenes: Vec::new(),
+            methods: Vec::new(),
             size: Some((8, 6)),
             adapter: AdapterChoice::Environment,
             out: PathBuf::new(),
             fresh: true,
         };
-        let plan = plan(Extent::Quick, &[]);
+        let plan = plan(Extent::Quick, &[], &[]);
         let mut row = plan.iter().filter(|planned| planned.purpose == Purpose::Density);
         let (easy, hard) = (row.next().expect("a row"), row.next().expect("of two"));
         let bench = scene(easy).expect("loads");

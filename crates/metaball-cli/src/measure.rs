@@ -161,6 +161,9 @@ pub(crate) struct ChartArgs {
     /// Scenes for error against time: known names, generators, or files.
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
+    /// Methods, separated by commas; all when left out.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = method_parser())]
+    methods: Vec<&'static Method>,
     /// Small scenes, small pictures: about a minute, to see that everything works.
     #[arg(long)]
     quick: bool,
@@ -180,9 +183,9 @@ pub(crate) struct ChartArgs {
 impl ChartArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         use chart::plan::Extent;
-        let Self { scenes, quick, fresh, size, out, device } = self;
+        let Self { scenes, methods, quick, fresh, size, out, device } = self;
         let extent = if quick { Extent::Quick } else { Extent::Whole };
-        chart(&chart::Order { extent, scenes, size, adapter: device.choice(), out, fresh })
+        chart(&chart::Order { extent, scenes, methods, size, adapter: device.choice(), out, fresh })
     }
 }
 

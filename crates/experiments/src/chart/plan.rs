@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::compare::DEFAULT_SCENES;
 use harness::configuration::{Configuration, sweeps};
+use harness::methods::{Method, methods};
+use harness::technique::Technique;
 
 /// How much to measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,13 +41,14 @@ pub struct Planned {
     pub configurations: Vec<Configuration>,
 }
 
-/// Whom growth and density are measured of: the published families, and what is faster.
+/// What growth and density are measured of: the published families, and what is faster; methods from
+/// outside of this workspace join them.
 const CONTESTANTS: &[&str] =
     &["bvh", "fbvh", "fbvh-certified", "kanamori", "illes", "illes-compute"];
 
 /// Everything to measure, in order. `scenes` are those of the charts of error; where there are none,
-/// those of the extent.
-pub fn plan(extent: Extent, scenes: &[String]) -> Vec<Planned> {
+/// those of the extent. `chosen` are the methods that take part; all where there are none.
+pub fn plan(extent: Extent, scenes: &[String], chosen: &[&Method]) -> Vec<Planned> {
     let (known, counts, count, densities): (&[&str], &[u32], u32, &[u32]) = match extent {
         Extent::Whole => (
             DEFAULT_SCENES,
@@ -59,7 +62,14 @@ pub fn plan(extent: Extent, scenes: &[String]) -> Vec<Planned> {
         Extent::Whole => sweeps::configurations(),
         Extent::Quick => sweeps::quick_configurations(),
     };
-    let presets = sweeps::presets(CONTESTANTS);
+    let takes_part = |configuration: &Configuration| {
+        let name = configuration.method.name;
+        chosen.is_empty() || chosen.iter().any(|method| method.name == name)
+    };
+    let errors: Vec<_> = errors.into_iter().filter(takes_part).collect();
+    let own = methods().iter().filter(|method| matches!(method.technique, Technique::Own(_)));
+    let named = sweeps::presets(CONTESTANTS).into_iter().chain(own.map(Configuration::preset));
+    let presets: Vec<_> = named.filter(takes_part).collect();
     let scenes: Vec<_> = match scenes {
         [] => known.iter().map(|&name| name.to_owned()).collect(),
         chosen => chosen.to_vec(),
@@ -82,19 +92,21 @@ pub fn plan(extent: Extent, scenes: &[String]) -> Vec<Planned> {
         spec: format!("scattered:{count}:{density}"),
         configurations: presets.clone(),
     });
-    errors.chain(growth).chain(density).collect()
+    let planned = errors.chain(growth).chain(density);
+    planned.filter(|planned| !planned.configurations.is_empty()).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use bench_scenes::{Overrides, load};
+    use harness::methods::find;
 
     use super::*;
 
     #[test]
     fn every_planned_scene_loads_and_comes_once() {
         for extent in [Extent::Whole, Extent::Quick] {
-            let plan = plan(extent, &[]);
+            let plan = plan(extent, &[], &[]);
             for planned in &plan {
                 let same = |other: &&Planned| {
                     (&other.spec, &other.purpose) == (&planned.spec, &planned.purpose)
@@ -106,7 +118,18 @@ mod tests {
                 }
             }
         }
-        let chosen = plan(Extent::Quick, &["two-far".to_owned()]);
+        let chosen = plan(Extent::Quick, &["two-far".to_owned()], &[]);
         assert_eq!((chosen[0].spec.as_str(), &chosen[0].purpose), ("two-far", &Purpose::Error));
+    }
+
+    #[test]
+    fn only_chosen_methods_take_part() {
+        let only = |name| plan(Extent::Whole, &[], &[find(name).expect("listed")]);
+        let certified = only("fbvh-certified");
+        let all = certified.iter().flat_map(|planned| &planned.configurations);
+        assert!(all.clone().count() > 20);
+        assert!(all.into_iter().all(|of| of.method.name == "fbvh-certified"));
+        // Growth is not measured of this one.
+        assert!(only("illes-absolute").iter().all(|planned| planned.purpose == Purpose::Error));
     }
 }

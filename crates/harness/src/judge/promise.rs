@@ -38,6 +38,9 @@ pub enum Promise {
     },
     /// Every ray.
     Always,
+    /// No ray: it may miss any hit or be late. A hit before the surface, or where there is none, is wrong
+    /// all the same.
+    Never,
 }
 
 impl Promise {
@@ -50,6 +53,9 @@ impl Promise {
         if let Self::Fragments { .. } = self {
             let stand_in = self.stand_in(scene, ray);
             return stand_in.is_none_or(|field| field.keeps(truth, scene.threshold()));
+        }
+        if self == Self::Never {
+            return false;
         }
         // A start inside needs no projection: the first evaluation tells.
         if truth.t == 0.0 || self == Self::Always {
