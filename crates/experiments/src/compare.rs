@@ -15,8 +15,8 @@ use harness::numbers::{decimal, grouped, small};
 use harness::record::{Record, Records, SCHEMA, Status};
 use harness::record_csv::write_csv;
 
-/// The telling few: the real molecule first, then the smallest case with a blend, a sparse and a
-/// layered crowd, and a real fluid.
+/// A few that differ: the real molecule first, then the smallest case with a blend, sparse and layered
+/// balls, and a real fluid.
 pub const DEFAULT_SCENES: &[&str] =
     &["molecule", "two-merging", "scattered-30k", "tornado-4k", "dam-break"];
 

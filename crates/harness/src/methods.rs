@@ -67,7 +67,7 @@ const METHODS: &[Method] = &[
         title: "Tiles, searched",
         paper: "not published: the peeling of Kanamori et al. 2008 replaced by a search",
         about: "Balls are registered with tiles of the picture; each ray searches its tile's list by \
-                intervals with exact bounds, so that neither coincident points nor crowds matter.",
+                intervals with exact bounds, so that neither coincident points nor overlap matters.",
         technique: Technique::TileSearch,
     },
     Method {
