@@ -57,7 +57,6 @@ fn is_history(file: &str) -> bool {
 }
 
 #[test]
-#[ignore = "until the texts that are being rewritten name files that exist"]
 fn every_named_path_exists() {
     let tree = Tree::of_repository();
     let mut searched = 0;
