@@ -143,11 +143,11 @@ pub const INTERFACES: &[Interface] = &[
             // The state of a search, kept while a ray is suspended: 28 bytes.
             struct Search
             var<private> search: Search
-            // Before the first leaf a cleared state does; after each leaf this.
+            // Prepares the search of another leaf; the first needs a cleared state alone.
             fn reset()
             // Starts or resumes the search of a leaf. Returns a fbvh::leaf_outcome.
             fn search_leaf(ray: Ray, inverse: vec3<f32>, index: u32) -> u32
-            // The hit last found, and its status.
+            // Distance and status of the hit that was FOUND; AT_FACE, the distance alone.
             fn hit_t() -> f32
             fn hit_status() -> u32
             // Whether the search ended BRACKETED.
@@ -194,7 +194,7 @@ pub const INTERFACES: &[Interface] = &[
         folder: "illes_fraglist/piece",
         purpose: "The field between two separators as a polynomial.",
         declarations: "
-            // Passes a separator of a kind of the ball with a rank.
+            // Passes a separator: its ball's rank, and its kind.
             fn pass_separator(rank: u32, kind: u32, direction: vec3<f32>)
             // The first point in [start, end] where the field reaches the threshold, or NO_ROOT. No
             // separator lies between the two.
