@@ -52,7 +52,7 @@ pub(crate) struct DrawingArgs {
 }
 
 /// A scene by its words, and how to draw it.
-struct Order {
+struct Request {
     scene: String,
     overrides: Overrides,
     options: DrawOptions,
@@ -60,7 +60,7 @@ struct Order {
 
 impl DrawingArgs {
     /// Whoever was chosen otherwise draws; else the method named, or the default.
-    fn order(self, auto: Option<Choosing>) -> anyhow::Result<Order> {
+    fn request(self, auto: Option<Choosing>) -> anyhow::Result<Request> {
         let Self { scene, method, picture, cpu, color, camera, light, shared } = self;
         let method = match auto {
             Some(choosing) => Method::Auto(choosing),
@@ -79,7 +79,7 @@ impl DrawingArgs {
             light: light.options(),
             backend,
         };
-        Ok(Order { scene, overrides: Overrides { color, ..shared.overrides() }, options })
+        Ok(Request { scene, overrides: Overrides { color, ..shared.overrides() }, options })
     }
 }
 
@@ -110,7 +110,7 @@ impl RenderArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         let auto = self.choosing()?;
         let Self { drawing, out, hits, light_out, .. } = self;
-        let Order { scene, overrides, options } = drawing.order(auto)?;
+        let Request { scene, overrides, options } = drawing.request(auto)?;
         if matches!(options.method, Method::Auto(_)) {
             ensure!(
                 options.backend != Backend::Cpu,
@@ -196,7 +196,7 @@ impl AnimateArgs {
             drawing.method.as_deref() != Some(AUTO),
             "auto chooses for one picture: for frames name a method"
         );
-        let Order { scene, overrides, options: draw } = drawing.order(None)?;
+        let Request { scene, overrides, options: draw } = drawing.request(None)?;
         let motion = Motion::load(&scene, &overrides)?;
         let options = AnimateOptions { draw, frames, every, out, sheet, force, in_turn };
         let mut progress = None;

@@ -7,11 +7,11 @@ use metaball_core::{Metaball, Ray, Scene};
 pub struct Points {
     /// Pairs of points of different balls that f32 may take for one.
     pub coincident: usize,
-    /// The most supports over one point, stretched by rounding at both ends.
+    /// The most supports over one point, widened by rounding at both ends.
     pub overlap: usize,
 }
 
-/// A ball's stretch of a ray.
+/// A ball's interval of a ray.
 struct Chord {
     enter: f64,
     leave: f64,

@@ -13,9 +13,9 @@ use super::stand_in::{StandIn, may_overflow};
 /// When a method must be right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Promise {
-    /// Gourmel et al. 2010, section 3: the ray's first stretch inside the solid holds the projection
+    /// Gourmel et al. 2010, section 3: the ray's first interval inside the solid holds the projection
     /// of a centre. It must be that of a ball whose support holds the projection, or the leaf that
-    /// holds the stretch does not list it.
+    /// holds the interval does not list it.
     Projection,
     /// The same for the modified BVH, whose lists are complete only inside the supports of a leaf's
     /// own balls: the support must hold the hit, too.

@@ -16,7 +16,7 @@ pub struct StandIn {
     is_absolute: bool,
 }
 
-/// A ball's stretch of a ray.
+/// A ball's interval of a ray.
 #[derive(Debug)]
 struct Chord {
     middle: f64,
