@@ -64,7 +64,7 @@ fn preset(method: &str) -> Result<Configuration, Failed> {
 
 /// What a method as it is listed is held to.
 fn terms_of(method: &str) -> Result<Terms, Failed> {
-    Ok(Terms::of(&preset(method)?.technique))
+    Ok(preset(method)?.technique.terms())
 }
 
 /// The tree that a method as it is listed traces.

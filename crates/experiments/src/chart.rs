@@ -1,26 +1,25 @@
 //! The command `chart`: error against time of every method and every knob, time and memory against
 //! the number of balls, time against density and depth complexity.
 
+mod coverage;
 mod frontier;
 mod moved;
 mod page;
 pub mod plan;
+pub mod record;
 mod shortlist;
-mod stage;
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::Context;
 use bench_scenes::{BenchScene, Overrides, load};
 use metaball_core::Camera;
 use metaball_core::gpu::{AdapterChoice, Gpu};
-use serde::{Deserialize, Serialize};
 
-use self::moved::Moved;
+use self::moved::moved;
 use self::plan::{Extent, Planned, Purpose, plan};
+use self::record::{Chart, Group, SCHEMA};
 use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar};
 use harness::comparison::{self, compare_scene, steps};
@@ -29,13 +28,9 @@ use harness::machine::Provenance;
 use harness::measure::Sampling;
 use harness::methods::Method;
 use harness::numbers::decimal;
-use harness::output::write_json;
 use harness::record::{Adapter, Record, Status};
 use harness::record_csv::write_csv;
 use picture_files::write_atomically;
-
-/// Name and version of the format of `chart.json`.
-pub const SCHEMA: &str = "metaball-chart/1";
 
 /// What to measure.
 #[derive(Debug, Clone)]
@@ -57,53 +52,11 @@ pub struct Order {
     pub fresh: bool,
 }
 
-/// The whole file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Chart {
-    /// Where it comes from; its format is [`SCHEMA`].
-    #[serde(flatten)]
-    pub provenance: Provenance,
-    /// What drew.
-    pub adapter: Adapter,
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Whether everything planned was measured.
-    pub complete: bool,
-    /// What a reader should know.
-    pub remarks: Vec<String>,
-    /// One for each scene and purpose, in the order measured.
-    pub groups: Vec<Group>,
-    /// How this run compares with the one before it in the same folder, if there was one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub moved: Option<Moved>,
-}
-
-/// One scene, measured for one purpose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Group {
-    /// What for.
-    pub purpose: Purpose,
-    /// What was loaded.
-    pub spec: String,
-    /// Number of balls.
-    pub balls: usize,
-    /// Mean number of other balls' supports that hold a ball's centre.
-    pub density: f64,
-    /// Mean number of supports that a ray meets.
-    pub supports_per_ray: f64,
-    /// What a reader should know.
-    pub remarks: Vec<String>,
-    /// One for each configuration.
-    pub records: Vec<Record>,
-}
-
 /// Five frames, or what fits into two seconds.
 const FRAMES: Sampling = Sampling { most: 5, enough: Duration::from_secs(2) };
 
 /// A method whose frame took longer than this is not tried on the next, harder scene of its row.
-const PATIENCE_MS: f64 = 4_000.0;
+const TIME_LIMIT_MS: f64 = 4_000.0;
 
 /// Measures and writes the file and the page. A run that was interrupted goes on where it stopped.
 ///
@@ -115,7 +68,7 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
     let path = order.out.join("chart.json");
     let plan = plan(order.extent, &order.scenes, &order.methods);
     let mut chart = Chart::begin(&gpu, order);
-    let previous = read(&path)?.filter(|previous| previous.is_like(&chart));
+    let previous = Chart::read(&path)?.filter(|previous| previous.is_like(&chart));
     let mut before = None;
     match previous {
         Some(previous) if previous.complete => before = Some(previous),
@@ -133,7 +86,7 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
     }
     chart.measure(&gpu, &plan, &path)?;
     chart.complete = true;
-    chart.moved = before.map(|before| Moved::between(&before, &chart));
+    chart.moved = before.map(|before| moved(&before, &chart));
     chart.write(&path)?;
     let records = chart.groups.iter().flat_map(|group| &group.records);
     write_csv(&order.out.join("chart.csv"), records)?;
@@ -187,19 +140,6 @@ impl Chart {
         }
     }
 
-    /// Whether two runs measured the same, up to the program.
-    fn is_like(&self, other: &Self) -> bool {
-        self.provenance.is_like(&other.provenance)
-            && self.adapter == other.adapter
-            && (self.width, self.height) == (other.width, other.height)
-    }
-
-    /// The records of the charts of error, scene by scene.
-    fn error_records(&self) -> Vec<&[Record]> {
-        let errors = self.groups.iter().filter(|group| group.purpose == Purpose::Error);
-        errors.map(|group| group.records.as_slice()).collect()
-    }
-
     /// Measures what is planned and not yet there, and writes the file after each scene.
     fn measure(&mut self, gpu: &Gpu, plan: &[Planned], path: &Path) -> anyhow::Result<()> {
         let options = |planned: &Planned| comparison::Options {
@@ -220,11 +160,11 @@ impl Chart {
                 progress.skip(done);
             } else {
                 progress.stage(format!("{}: loading", planned.spec));
-                let tired = self.tired(planned);
+                let too_slow = self.too_slow(planned);
                 options
                     .configurations
-                    .retain(|configuration| !tired.contains_key(configuration.method.name));
-                match group(gpu, planned, &options, &progress, &tired) {
+                    .retain(|configuration| !too_slow.contains_key(configuration.method.name));
+                match group(gpu, planned, &options, &progress, &too_slow) {
                     Ok(group) => self.groups.push(group),
                     Err(error) => {
                         let remark = format!("{}: {error:#}", planned.spec);
@@ -240,45 +180,24 @@ impl Chart {
     }
 
     /// Methods that were too slow, or gave up, on an easier scene of the same row; with the reason.
-    fn tired(&self, planned: &Planned) -> BTreeMap<&'static str, String> {
-        let mut tired = BTreeMap::new();
+    fn too_slow(&self, planned: &Planned) -> BTreeMap<&'static str, String> {
+        let mut too_slow = BTreeMap::new();
         if planned.purpose == Purpose::Error {
-            return tired;
+            return too_slow;
         }
         let row = self.groups.iter().filter(|group| group.purpose == planned.purpose);
         for record in row.flat_map(|group| &group.records) {
             let Some(method) = harness::methods::find(&record.method) else { continue };
             let frame = record.measured.as_ref().map(|measured| measured.frame_ms.median);
-            if let Some(frame) = frame.filter(|&frame| frame > PATIENCE_MS) {
+            if let Some(frame) = frame.filter(|&frame| frame > TIME_LIMIT_MS) {
                 let reason = format!("not run: {} took {} ms", record.scene, decimal(frame));
-                tired.insert(method.name, reason);
+                too_slow.insert(method.name, reason);
             } else if record.status == Status::Skipped {
-                tired.insert(method.name, record.reason.clone().unwrap_or_default());
+                too_slow.insert(method.name, record.reason.clone().unwrap_or_default());
             }
         }
-        tired
+        too_slow
     }
-
-    fn write(&self, path: &Path) -> anyhow::Result<()> {
-        write_json(path, self)
-    }
-}
-
-impl Group {
-    fn is_of(&self, planned: &Planned) -> bool {
-        (&self.purpose, &self.spec) == (&planned.purpose, &planned.spec)
-    }
-}
-
-/// The file of an earlier run, where there is one.
-fn read(path: &Path) -> anyhow::Result<Option<Chart>> {
-    if !path.exists() {
-        return Ok(None);
-    }
-    let text =
-        fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    // A file of another kind or version is no earlier run; it is written over.
-    Ok(serde_json::from_str(&text).ok())
 }
 
 fn group(
@@ -286,13 +205,13 @@ fn group(
     planned: &Planned,
     options: &comparison::Options,
     progress: &ProgressBar,
-    tired: &BTreeMap<&'static str, String>,
+    too_slow: &BTreeMap<&'static str, String>,
 ) -> anyhow::Result<Group> {
     let bench = scene(planned)?;
     let compared = compare_scene(gpu, &bench, options, progress)?;
     let mut records = compared.records;
     for configuration in &planned.configurations {
-        if let Some(reason) = tired.get(configuration.method.name) {
+        if let Some(reason) = too_slow.get(configuration.method.name) {
             records.push(skipped(gpu, &bench, options, configuration, reason));
         }
     }
@@ -301,7 +220,7 @@ fn group(
         spec: planned.spec.clone(),
         balls: bench.scene.len(),
         density: bench_scenes::mean_overlap(&bench.scene),
-        supports_per_ray: stage::supports_per_ray(&bench.scene, &bench.camera),
+        supports_per_ray: coverage::supports_per_ray(&bench.scene, &bench.camera),
         remarks: compared.remarks,
         records,
     })
@@ -322,7 +241,7 @@ fn scene(planned: &Planned) -> anyhow::Result<BenchScene> {
         cube.union(&metaball_core::Aabb { min: center, max: center })
     });
     let camera = Camera::framing(&cube, glam::Vec3::new(0.5, 0.35, 1.0));
-    stage::staged(bench, camera, DENSITY_HITS)
+    coverage::with_hit_share(bench, camera, DENSITY_HITS)
 }
 
 /// The record of a configuration that was not run.
@@ -380,7 +299,7 @@ mod tests {
         chart.measure(&gpu, &plan[..1], &path).expect("measured");
 
         // What is there is not measured again, and what is missing is.
-        let mut resumed = read(&path).expect("readable").expect("written");
+        let mut resumed = Chart::read(&path).expect("readable").expect("written");
         assert!(resumed.is_like(&chart) && !resumed.complete);
         let done = resumed.groups.clone();
         resumed.measure(&gpu, &plan, &path).expect("measured");
@@ -391,7 +310,7 @@ mod tests {
             assert!(group.records.iter().all(|record| record.measured.is_some()));
         }
 
-        let moved = Moved::between(&resumed, &resumed);
+        let moved = moved(&resumed, &resumed);
         assert_eq!(
             (moved.points, moved.moved.len()),
             (resumed.groups.iter().map(|group| group.records.len()).sum(), 0)
@@ -405,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tired_method_rests_for_the_rest_of_its_row() {
+    fn a_method_that_was_too_slow_is_left_out_of_harder_scenes() {
         let Some(gpu) = Gpu::for_test() else { return };
         let order = Order {
             extent: Extent::Quick,
@@ -440,12 +359,12 @@ mod tests {
             remarks: Vec::new(),
             records: vec![record],
         });
-        let tired = chart.tired(hard);
+        let too_slow = chart.too_slow(hard);
         assert_eq!(
-            tired.get(easy.configurations[0].method.name).map(String::as_str),
+            too_slow.get(easy.configurations[0].method.name).map(String::as_str),
             Some("not run: too slow")
         );
-        assert_eq!(tired.len(), 1);
-        assert!(chart.tired(&plan[0]).is_empty(), "charts of error leave nobody out");
+        assert_eq!(too_slow.len(), 1);
+        assert!(chart.too_slow(&plan[0]).is_empty(), "charts of error leave nobody out");
     }
 }

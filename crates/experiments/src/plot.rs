@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use crate::html::escape;
-use harness::numbers::decimal;
+use harness::numbers::{decimal, superscript};
 
 /// A plot, drawn by [`Plot::svg`].
 #[derive(Debug, Clone, PartialEq)]
@@ -311,28 +311,10 @@ fn tick_text(value: f64, scale: Scale) -> String {
             format!(
                 "{}10{}",
                 if digit == 1.0 { String::new() } else { format!("{digit}·") },
-                raised(exponent as i32)
+                superscript(&exponent.to_string())
             )
         }
     }
-}
-
-/// A whole number in superscript.
-fn raised(number: i32) -> String {
-    let digit = |character| match character {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        '9' => '⁹',
-        _ => '⁰',
-    };
-    number.to_string().chars().map(digit).collect()
 }
 
 /// From each corner on to the right, then down to the next.

@@ -22,6 +22,7 @@ use crate::console::{self, ProgressBar, table};
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
 use harness::machine::Provenance;
+use harness::numbers::tick;
 use picture_files::write_atomically;
 
 /// What to try.
@@ -133,9 +134,8 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) ->
     let row = |case: &&Case| {
         let limit = |method: &Configuration| {
             stability.limit(case.name, &method.name).map_or_else(String::new, |limit| {
-                let value = limit
-                    .fails_at
-                    .map_or_else(String::new, |value| format!(" {}", page::tick(value)));
+                let value =
+                    limit.fails_at.map_or_else(String::new, |value| format!(" {}", tick(value)));
                 format!("{}{value}", limit.first.word())
             })
         };
@@ -154,7 +154,7 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) ->
                 "\n  {}, {} = {}: {} {note}",
                 limit.method,
                 limit.case,
-                page::tick(*value),
+                tick(*value),
                 found.word()
             );
             count += 1;
@@ -165,8 +165,7 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) ->
     text += &unexpected;
     for cell in stability.of_outcome(Outcome::Untried) {
         let reason = cell.note.as_deref().unwrap_or_default();
-        text +=
-            &format!("\n  {}, {} = {}: {reason}", cell.method, cell.case, page::tick(cell.value));
+        text += &format!("\n  {}, {} = {}: {reason}", cell.method, cell.case, tick(cell.value));
     }
     text
 }

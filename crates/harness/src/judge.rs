@@ -13,7 +13,6 @@ use self::promise::Promise;
 use self::stand_in::StandIn;
 use crate::fronts::WRONG_FRONT;
 use crate::score::Judgement;
-use crate::technique::Technique;
 
 /// What a method is held to.
 #[derive(Debug, Clone, Copy)]
@@ -39,11 +38,6 @@ impl Stop {
 }
 
 impl Terms {
-    /// What a technique promises.
-    pub fn of(technique: &Technique) -> Self {
-        Self { promise: technique.promise(), stop: technique.stop() }
-    }
-
     /// The |Δt|/R that 99 of 100 hits keep within: the reach of a default root finder, or where a
     /// cubic stands for the field, that of a wrong front.
     pub fn tolerance(&self) -> f64 {

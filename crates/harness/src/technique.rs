@@ -7,8 +7,8 @@ use illes_fraglist::Piece;
 use metaball_core::gpu::IsoRenderer;
 use metaball_core::{Kernel, Scene};
 
-use crate::judge::Stop;
 use crate::judge::promise::Promise;
+use crate::judge::{Stop, Terms};
 
 /// What a method does, with all its options.
 #[derive(Debug, Clone, Copy)]
@@ -66,6 +66,11 @@ impl Technique {
             Self::Tree(options, _) => Some(*options),
             _ => None,
         }
+    }
+
+    /// What it is held to.
+    pub fn terms(&self) -> Terms {
+        Terms { promise: self.promise(), stop: self.stop() }
     }
 
     /// Where it must be right.

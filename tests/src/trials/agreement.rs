@@ -3,7 +3,7 @@
 
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
-use harness::judge::{Findings, Terms};
+use harness::judge::Findings;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Scene;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
@@ -48,11 +48,7 @@ fn with_oracle(
     if let Some(reason) = configuration.technique.refusal(&fixture.scene.scene) {
         return refuses(gpu, configuration.renderer(false).as_mut(), &fixture.scene.scene, reason);
     }
-    pass(
-        &fixture
-            .judge
-            .judge(&picture(gpu, scene, configuration)?, &Terms::of(&configuration.technique)),
-    )
+    pass(&fixture.judge.judge(&picture(gpu, scene, configuration)?, &configuration.technique.terms()))
 }
 
 fn refuses(

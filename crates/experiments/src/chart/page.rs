@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use super::frontier::frontier;
 use super::plan::Purpose;
+use super::record::{Chart, Group};
 use super::shortlist;
-use super::{Chart, Group};
 use crate::conclusions::conclusions;
 use crate::html::escape;
 use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};

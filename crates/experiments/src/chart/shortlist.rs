@@ -1,8 +1,8 @@
 //! What the short list of `auto` costs: the quickest of its candidates against the quickest of all
 //! configurations that were measured.
 
-use super::Group;
 use super::plan::Purpose;
+use super::record::Group;
 use harness::auto::choice::Errors;
 use harness::configuration::{label, sweeps};
 use harness::record::{Measured, Record};

@@ -10,7 +10,7 @@ use super::record::{Limit, Stability};
 use crate::html::escape;
 use crate::page::{self, remark_paragraphs, run_facts};
 use harness::configuration::Configuration;
-use harness::numbers::small;
+use harness::numbers::{small, tick};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(
@@ -292,36 +292,4 @@ fn notes(stability: &Stability) -> String {
     let mut untried = stability.of_outcome(Outcome::Untried);
     let place = |cell: &Cell| format!("{} = {}, {}", cell.case, tick(cell.value), cell.method);
     list("Refusals", &mut refused, |cell| cell.case.clone()) + &list("Not run", &mut untried, place)
-}
-
-/// A value as an axis would show it.
-pub(super) fn tick(value: f64) -> String {
-    let size = value.abs();
-    let sign = if value < 0.0 { "\u{2212}" } else { "" };
-    if size == 0.0 || (1e-2..1e4).contains(&size) {
-        return format!("{sign}{size}");
-    }
-    let text = format!("{size:e}");
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let factor = if digits == "1" { String::new() } else { format!("{digits}·") };
-    let raise = |digit: char| match digit {
-        '-' => '⁻',
-        '0'..='9' => {
-            ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize - '0' as usize]
-        }
-        other => other,
-    };
-    format!("{sign}{factor}10{}", exponent.chars().map(raise).collect::<String>())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_short() {
-        assert_eq!([0.0, 14.0, -0.1, 0.01].map(tick), ["0", "14", "\u{2212}0.1", "0.01"]);
-        assert_eq!(tick(1e6), "10⁶");
-        assert_eq!(tick(-3e-5), "\u{2212}3·10⁻⁵");
-    }
 }

@@ -2,10 +2,9 @@
 //! unless it promises to be right everywhere.
 
 use super::cell::{Cell, Outcome};
-use super::page::tick;
 use harness::configuration::Configuration;
-use harness::judge::Terms;
 use harness::judge::promise::Promise;
+use harness::numbers::tick;
 
 /// Seconds after which a method rests. Twice as many balls over one point cost a published method some
 /// eight times as much: its next value takes a minute or two.
@@ -17,7 +16,7 @@ pub(super) fn rests<'a>(
     easier: impl Iterator<Item = &'a Cell>,
     configuration: &Configuration,
 ) -> Option<String> {
-    if Terms::of(&configuration.technique).promise == Promise::Always {
+    if configuration.technique.terms().promise == Promise::Always {
         return None;
     }
     let mut of_configuration = easier.filter(|cell| cell.method == configuration.name);

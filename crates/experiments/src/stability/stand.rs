@@ -38,7 +38,7 @@ impl<'a> Stand<'a> {
     /// For configurations that are held to what they promise. Nothing is made yet on the device.
     pub fn new(gpu: &'a Gpu, configurations: impl IntoIterator<Item = Configuration>) -> Self {
         let with_terms = |configuration: Configuration| {
-            let terms = Terms::of(&configuration.technique);
+            let terms = configuration.technique.terms();
             (configuration, terms)
         };
         Self::holding(gpu, configurations.into_iter().map(with_terms))

@@ -6,6 +6,7 @@ mod heading;
 pub mod light;
 mod page;
 pub mod paper;
+pub mod paper_scene;
 pub mod plan;
 pub mod run;
 pub mod settings;

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::paper::{COUNTED, Counts, PRINTED, Printed, Rate};
-use super::plan::{Place, scaled_molecule, support_factors};
+use super::paper_scene::PaperScene;
+use super::plan::{scaled_molecule, support_factors};
 use super::run::Run;
 use super::settings::Setting;
 use crate::tables::Extent;
@@ -104,8 +105,8 @@ pub fn tables(extent: Extent, runs: &[Run]) -> Vec<Table> {
 }
 
 fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
-    let scene = rate.place.spec(extent);
-    let first = table.rows.iter().find(|other| other.place == rate.place);
+    let scene = rate.scene.spec(extent);
+    let first = table.rows.iter().find(|other| other.scene == rate.scene);
     let first = first.filter(|first| first.setting != rate.setting);
     let paper_ratio = first.map(|first| rate.fps / first.fps);
     let pair = first.and_then(|first| {
@@ -128,7 +129,7 @@ fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
 
 /// Table 3, with what was counted.
 pub fn work_table(extent: Extent, runs: &[Run]) -> Vec<WorkRow> {
-    let scene = Place::Tornado4k.spec(extent);
+    let scene = PaperScene::Tornado4k.spec(extent);
     let counted = |row: &Counts| {
         let work = find(runs, scene, &row.setting.name())?.work;
         Some([work.nodes_per_ray, work.leaf_tests_per_ray, work.balls_per_ray])
@@ -164,7 +165,7 @@ pub fn density(extent: Extent, runs: &[Run]) -> Density {
     let rows: Vec<_> = support_factors(extent).iter().map(row).collect();
     let rate = |setting| {
         let rows = || PRINTED.iter().flat_map(|table| table.rows);
-        let row = rows().find(|row| row.place == Place::Molecule && row.setting == setting);
+        let row = rows().find(|row| row.scene == PaperScene::Molecule && row.setting == setting);
         row.map_or(f64::NAN, |row| row.fps)
     };
     let paper_ratio = rate(Setting::Fitted) / rate(Setting::Modified);

@@ -1,6 +1,6 @@
 //! What Gourmel et al. 2010 print in section 6: frames a second at 640 × 480 on a GeForce GTX 280.
 
-use super::plan::Place;
+use super::paper_scene::PaperScene;
 use super::settings::Setting;
 
 /// A table of frame rates. The first row of each scene is what its other rows are compared with.
@@ -18,7 +18,7 @@ pub struct Printed {
 #[derive(Debug)]
 pub struct Rate {
     /// The scene.
-    pub place: Place,
+    pub scene: PaperScene,
     /// The structure.
     pub setting: Setting,
     /// Milliseconds to build it, where printed.
@@ -42,25 +42,25 @@ pub struct Counts {
     pub balls: f64,
 }
 
-use Place::{Molecule, Pool, Scattered30k, Scattered100k, Tornado4k, Tornado128k};
+use PaperScene::{Molecule, Pool, Scattered30k, Scattered100k, Tornado4k, Tornado128k};
 use Setting::{Cut, Discarding, Fitted, Linear, Modified, Plain, Tighter};
 
 const fn full(
-    place: Place,
+    scene: PaperScene,
     setting: Setting,
     build_ms: f64,
     extremes: (f64, f64),
     fps: f64,
 ) -> Rate {
-    Rate { place, setting, build_ms: Some(build_ms), extremes: Some(extremes), fps }
+    Rate { scene, setting, build_ms: Some(build_ms), extremes: Some(extremes), fps }
 }
 
-const fn built(place: Place, setting: Setting, build_ms: f64, fps: f64) -> Rate {
-    Rate { place, setting, build_ms: Some(build_ms), extremes: None, fps }
+const fn built(scene: PaperScene, setting: Setting, build_ms: f64, fps: f64) -> Rate {
+    Rate { scene, setting, build_ms: Some(build_ms), extremes: None, fps }
 }
 
-const fn rate(place: Place, setting: Setting, fps: f64) -> Rate {
-    Rate { place, setting, build_ms: None, extremes: None, fps }
+const fn rate(scene: PaperScene, setting: Setting, fps: f64) -> Rate {
+    Rate { scene, setting, build_ms: None, extremes: None, fps }
 }
 
 /// Tables 1, 4 and 5, and the two heuristics.
@@ -128,14 +128,14 @@ mod tests {
     /// right is table 1's average.
     #[test]
     fn tables_agree_with_each_other() {
-        let fps = |name, place, setting| {
+        let fps = |name, scene, setting| {
             let table = PRINTED.iter().find(|table| table.name == name).expect("printed");
-            let row = table.rows.iter().find(|row| row.place == place && row.setting == setting);
+            let row = table.rows.iter().find(|row| row.scene == scene && row.setting == setting);
             row.expect("printed").fps
         };
-        for place in [Molecule, Pool] {
-            assert_eq!(fps("Table 4", place, Plain), fps("Table 5", place, Plain));
-            assert_eq!(fps("Table 5", place, Fitted), fps("Table 1", place, Fitted));
+        for scene in [Molecule, Pool] {
+            assert_eq!(fps("Table 4", scene, Plain), fps("Table 5", scene, Plain));
+            assert_eq!(fps("Table 5", scene, Fitted), fps("Table 1", scene, Fitted));
         }
         assert_eq!(fps("Section 6, heuristics", Pool, Fitted), fps("Table 1", Pool, Fitted));
     }

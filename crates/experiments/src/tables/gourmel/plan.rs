@@ -3,44 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::paper::{COUNTED, PRINTED};
+use super::paper_scene::PaperScene;
 use super::settings::Setting;
 use crate::tables::Extent;
-
-/// A scene of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// 30,000 scattered balls.
-    Scattered30k,
-    /// 100,000 scattered balls.
-    Scattered100k,
-    /// The tornado of 4,000 balls.
-    Tornado4k,
-    /// The tornado of 128,000 balls.
-    Tornado128k,
-    /// The molecule of 5,440 balls; ours has 5,547.
-    Molecule,
-    /// The pool of 10,000 balls.
-    Pool,
-}
-
-impl Place {
-    /// What to load for it.
-    pub fn spec(self, extent: Extent) -> &'static str {
-        match (extent, self) {
-            (Extent::Whole, Self::Scattered30k) => "scattered-30k",
-            (Extent::Whole, Self::Scattered100k) => "scattered-100k",
-            (Extent::Whole, Self::Tornado4k) => "tornado-4k",
-            (Extent::Whole, Self::Tornado128k) => "tornado-128k",
-            (Extent::Whole, Self::Pool) => "pool-10k",
-            (_, Self::Molecule) => "molecule",
-            (Extent::Quick, Self::Scattered30k) => "scattered:300",
-            (Extent::Quick, Self::Scattered100k) => "scattered:1000",
-            (Extent::Quick, Self::Tornado4k) => "tornado:150",
-            (Extent::Quick, Self::Tornado128k) => "tornado:300",
-            (Extent::Quick, Self::Pool) => "pool:200",
-        }
-    }
-}
 
 /// A line in a plot: frame time over a quantity.
 #[derive(Debug, Clone)]
@@ -95,7 +60,7 @@ pub fn series(extent: Extent) -> Vec<Series> {
         quantity: Quantity::Balls,
         points: counts.iter().map(|count| (format!("tornado:{count}"), setting)).collect(),
     };
-    let tornado = Place::Tornado4k.spec(extent);
+    let tornado = PaperScene::Tornado4k.spec(extent);
     vec![
         over_balls("Number of balls, modified BVH", Setting::Modified),
         over_balls("Number of balls, Fitted BVH", Setting::Fitted),
@@ -131,9 +96,9 @@ pub fn support_factors(extent: Extent) -> &'static [f32] {
 /// Everything that the tables and plots need, each once: settings by scene.
 pub fn measurements(extent: Extent) -> BTreeMap<String, BTreeSet<Setting>> {
     let rates = PRINTED.iter().flat_map(|table| table.rows);
-    let rates = rates.map(|row| (row.place.spec(extent).to_owned(), row.setting));
+    let rates = rates.map(|row| (row.scene.spec(extent).to_owned(), row.setting));
     let counted = COUNTED.iter().map(|row| row.setting);
-    let counted = counted.map(|setting| (Place::Tornado4k.spec(extent).to_owned(), setting));
+    let counted = counted.map(|setting| (PaperScene::Tornado4k.spec(extent).to_owned(), setting));
     let points = series(extent).into_iter().flat_map(|series| series.points);
     let mut measurements = BTreeMap::<_, BTreeSet<_>>::new();
     let sizes = support_factors(extent).iter().map(|&factor| scaled_molecule(factor));

@@ -55,16 +55,16 @@ pub fn measurements(extent: Extent) -> Vec<(&'static str, Vec<Wanted>)> {
     let costs = COSTS.iter().flat_map(|row| {
         let methods = &METHODS[1..];
         COST_EFFECTS.iter().flat_map(move |&effect| {
-            methods.iter().map(move |&method| (row.place, Wanted { method, effect }))
+            methods.iter().map(move |&method| (row.scene, Wanted { method, effect }))
         })
     });
     let gains = GAINS.iter().flat_map(|row| {
-        METHODS.iter().map(|&method| (row.place, Wanted { method, effect: row.effect }))
+        METHODS.iter().map(|&method| (row.scene, Wanted { method, effect: row.effect }))
     });
     let mut measurements: Vec<(&str, Vec<Wanted>)> = Vec::new();
-    for (place, wanted) in costs.chain(gains) {
-        let spec = place.spec(extent);
-        match measurements.iter_mut().find(|(scene, _)| *scene == spec) {
+    for (scene, wanted) in costs.chain(gains) {
+        let spec = scene.spec(extent);
+        match measurements.iter_mut().find(|(of, _)| *of == spec) {
             Some((_, all)) if all.contains(&wanted) => {}
             Some((_, all)) => all.push(wanted),
             None => measurements.push((spec, vec![wanted])),
@@ -76,7 +76,7 @@ pub fn measurements(extent: Extent) -> Vec<(&'static str, Vec<Wanted>)> {
 /// Table 2.
 pub fn costs(extent: Extent, runs: &[Run]) -> Vec<CostRow> {
     let rows = |printed: &Costs| {
-        let scene = printed.place.spec(extent);
+        let scene = printed.scene.spec(extent);
         let row = |(&effect, fps): (&Effect, &f64)| {
             let pair = |method| {
                 let run = |effect: Effect| find(runs, scene, method, &effect.name());
@@ -104,7 +104,7 @@ pub fn costs(extent: Extent, runs: &[Run]) -> Vec<CostRow> {
 /// Table 1.
 pub fn gains(extent: Extent, runs: &[Run]) -> Vec<GainRow> {
     let row = |printed: &Gain| {
-        let (scene, effect) = (printed.place.spec(extent), printed.effect.name());
+        let (scene, effect) = (printed.scene.spec(extent), printed.effect.name());
         let modified = find(runs, scene, METHODS[0], &effect);
         let gain = |method| {
             modified.and_then(|slow| slow.times_as_long_as(find(runs, scene, method, &effect)?))
@@ -135,7 +135,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::tables::gourmel::plan::Place;
+    use crate::tables::gourmel::paper_scene::PaperScene;
     use harness::record::Samples;
 
     fn run(method: &str, effect: Effect, ms: f64) -> Run {
@@ -159,7 +159,7 @@ mod tests {
             // Two tables of 16 and 15, two of which are in both: the molecule's hard shadows.
             assert_eq!(pairs, 16 + 15 - 2);
         }
-        assert!(GAINS.iter().any(|gain| gain.place == Place::Pool));
+        assert!(GAINS.iter().any(|gain| gain.scene == PaperScene::Pool));
     }
 
     #[test]

@@ -2,13 +2,13 @@
 //! a GeForce GTX 280.
 
 use super::effect::Effect;
-use crate::tables::gourmel::plan::Place;
+use crate::tables::gourmel::paper_scene::PaperScene;
 
 /// A scene of table 1 under its own effects (figure 8).
 #[derive(Debug)]
 pub struct Gain {
     /// The scene.
-    pub place: Place,
+    pub scene: PaperScene,
     /// What it is drawn with.
     pub effect: Effect,
     /// Frames a second of the modified BVH, the mean.
@@ -21,21 +21,21 @@ pub struct Gain {
 #[derive(Debug)]
 pub struct Costs {
     /// The scene.
-    pub place: Place,
+    pub scene: PaperScene,
     /// In the order of [`COST_EFFECTS`].
     pub fps: [f64; 4],
 }
 
 use Effect::{Cast, Fresnel, Mirrors, Occlusion, ShadowedMirrors, Shadows};
-use Place::{Molecule, Pool, Tornado4k, Tornado128k};
+use PaperScene::{Molecule, Pool, Tornado4k, Tornado128k};
 
 /// Table 1, without the scattered balls, which have no effects.
 pub const GAINS: &[Gain] = &[
-    Gain { place: Tornado4k, effect: Mirrors(3), modified: 4.6, fitted: 11.0 },
-    Gain { place: Tornado128k, effect: Mirrors(3), modified: 1.0, fitted: 2.4 },
-    Gain { place: Molecule, effect: Shadows, modified: 5.8, fitted: 17.7 },
-    Gain { place: Molecule, effect: Occlusion(64), modified: 0.6, fitted: 1.3 },
-    Gain { place: Pool, effect: Fresnel, modified: 1.9, fitted: 7.1 },
+    Gain { scene: Tornado4k, effect: Mirrors(3), modified: 4.6, fitted: 11.0 },
+    Gain { scene: Tornado128k, effect: Mirrors(3), modified: 1.0, fitted: 2.4 },
+    Gain { scene: Molecule, effect: Shadows, modified: 5.8, fitted: 17.7 },
+    Gain { scene: Molecule, effect: Occlusion(64), modified: 0.6, fitted: 1.3 },
+    Gain { scene: Pool, effect: Fresnel, modified: 1.9, fitted: 7.1 },
 ];
 
 /// The columns of table 2.
@@ -43,8 +43,8 @@ pub const COST_EFFECTS: [Effect; 4] = [Cast, Shadows, ShadowedMirrors(1), Shadow
 
 /// Table 2. Of the tornado the paper does not say which; here it is the small one.
 pub const COSTS: &[Costs] = &[
-    Costs { place: Molecule, fps: [22.3, 17.7, 12.7, 8.2] },
-    Costs { place: Tornado4k, fps: [5.7, 4.9, 3.4, 2.5] },
+    Costs { scene: Molecule, fps: [22.3, 17.7, 12.7, 8.2] },
+    Costs { scene: Tornado4k, fps: [5.7, 4.9, 3.4, 2.5] },
 ];
 
 #[cfg(test)]
@@ -55,7 +55,7 @@ mod tests {
     #[test]
     fn tables_agree_with_each_other() {
         let molecule = GAINS.iter().find(|gain| gain.effect == Shadows).expect("printed");
-        assert_eq!((COSTS[0].place, COST_EFFECTS[1]), (molecule.place, molecule.effect));
+        assert_eq!((COSTS[0].scene, COST_EFFECTS[1]), (molecule.scene, molecule.effect));
         assert_eq!(COSTS[0].fps[1], molecule.fitted);
     }
 }

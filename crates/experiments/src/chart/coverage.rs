@@ -1,5 +1,5 @@
-//! Scenes as a chart shows them: from one place, with one share of pixels that hit, and with what is
-//! said of them on an axis.
+//! What of a picture a scene covers: the share of its pixels that hit, how many supports a ray meets, and
+//! the threshold for a wanted share.
 
 use bench_scenes::BenchScene;
 use fbvh::{Options, Tracer, Tree};
@@ -46,7 +46,7 @@ pub(super) fn hit_share(scene: &Scene, camera: &Camera) -> anyhow::Result<f64> {
 ///
 /// # Errors
 /// When no threshold does that.
-pub(super) fn staged(
+pub(super) fn with_hit_share(
     mut bench: BenchScene,
     camera: Camera,
     share: f64,
@@ -90,7 +90,7 @@ mod tests {
         let met = supports_per_ray(&sparse.scene, &sparse.camera);
         assert!((0.05..0.95).contains(&share) && met > 0.5, "{share} {met}");
 
-        let dense = staged(load("scattered:200:30"), sparse.camera, share).expect("staged");
+        let dense = with_hit_share(load("scattered:200:30"), sparse.camera, share).expect("found");
         let again = hit_share(&dense.scene, &dense.camera).expect("built");
         assert!((again - share).abs() <= 0.05 * share, "{again} for {share}");
         assert!(supports_per_ray(&dense.scene, &dense.camera) > 2.0 * met);
@@ -101,7 +101,7 @@ mod tests {
     fn an_impossible_share_is_refused() {
         let bench = load("scattered:200:3", &Overrides::default()).expect("loads");
         let camera = bench.camera;
-        let error = staged(bench, camera, 2.0).expect_err("more than all");
+        let error = with_hit_share(bench, camera, 2.0).expect_err("more than all");
         assert!(error.to_string().contains("scattered:200:3"), "{error}");
     }
 }
