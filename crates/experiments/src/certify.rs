@@ -26,7 +26,7 @@ use harness::numbers::{grouped, small};
 
 /// What to hold against the oracle.
 #[derive(Debug, Clone)]
-pub struct Order {
+pub struct Options {
     /// Different rays, at least.
     pub rays: u64,
     /// A few values of each stability case and few rays a scene.
@@ -39,7 +39,7 @@ pub struct Order {
     pub out: PathBuf,
 }
 
-impl Order {
+impl Options {
     /// Rays of an arbitrary scene.
     fn rays_of_scene(&self) -> usize {
         if self.quick { 1200 } else { 98_304 }
@@ -55,28 +55,28 @@ const SECONDS_OF_GROUP: f64 = 10.0;
 /// # Errors
 /// When there is a shortfall, of which the first wrong answers are printed in full; without the adapter;
 /// when the device fails, or a file cannot be written.
-pub fn certify(order: &Order) -> anyhow::Result<()> {
-    let gpu = order.adapter.as_ref().map(Gpu::new).transpose()?;
+pub fn certify(options: &Options) -> anyhow::Result<()> {
+    let gpu = options.adapter.as_ref().map(Gpu::new).transpose()?;
     if let Some(gpu) = &gpu {
         console::note(&gpu.report().to_string());
     }
-    let unfinished = order.out.join("unfinished.json");
+    let unfinished = options.out.join("unfinished.json");
     let fresh = Certificate::fresh(gpu.as_ref());
     let left = fresh.unfinished(&unfinished);
     if left.is_some() {
         console::note("Going on where an interrupted run has stopped.");
     }
     let certificate =
-        run(order, gpu.as_ref(), left.unwrap_or(fresh), |state| state.write(&unfinished))?;
+        run(options, gpu.as_ref(), left.unwrap_or(fresh), |state| state.write(&unfinished))?;
 
-    let path = order.out.join("certify.json");
+    let path = options.out.join("certify.json");
     certificate.write(&path)?;
     if let Err(error) = fs::remove_file(&unfinished) {
         console::note(&format!("{}: {error}", unfinished.display()));
     }
     console::line(&summary(&certificate));
     console::line(&format!("\n{}", path.display()));
-    let shortfalls = certificate.shortfalls(order.rays);
+    let shortfalls = certificate.shortfalls(options.rays);
     anyhow::ensure!(shortfalls.is_empty(), "no certificate: {}", shortfalls.join("; "));
     Ok(())
 }
@@ -87,23 +87,23 @@ pub fn certify(order: &Order) -> anyhow::Result<()> {
 /// # Errors
 /// When a tree cannot be built, the device fails, or the state cannot be kept.
 pub fn run(
-    order: &Order,
+    options: &Options,
     gpu: Option<&Gpu>,
     mut certificate: Certificate,
     mut keep: impl FnMut(&Certificate) -> anyhow::Result<()>,
 ) -> anyhow::Result<Certificate> {
     let (mut start, mut tally) = (Instant::now(), certificate.tally());
     let mut card = gpu.map(Card::new).transpose()?;
-    let progress = ProgressBar::new(order.rays);
+    let progress = ProgressBar::new(options.rays);
     progress.reach(certificate.rays);
-    for shard in shards(order.seed, order.quick).skip(certificate.shards) {
-        if certificate.rays >= order.rays && matches!(shard, Shard::Arbitrary(_)) {
+    for shard in shards(options.seed, options.quick).skip(certificate.shards) {
+        if certificate.rays >= options.rays && matches!(shard, Shard::Arbitrary(_)) {
             break;
         }
-        tally.add(shard.hold(order.rays_of_scene(), card.as_mut())?);
+        tally.add(shard.hold(options.rays_of_scene(), card.as_mut())?);
         certificate.take(&tally);
         certificate.shards += 1;
-        progress.reach(certificate.rays.min(order.rays));
+        progress.reach(certificate.rays.min(options.rays));
         let seconds = start.elapsed().as_secs_f64();
         if seconds > SECONDS_OF_GROUP {
             let wrong: u64 = certificate.counts.iter().map(|row| row.count.wrong).sum();
@@ -215,14 +215,14 @@ fn errors(certificate: &Certificate, tracer: Tracer) -> String {
 mod tests {
     use super::*;
 
-    fn order(rays: u64) -> Order {
-        Order { rays, quick: true, seed: 1, adapter: None, out: PathBuf::from("unused") }
+    fn options(rays: u64) -> Options {
+        Options { rays, quick: true, seed: 1, adapter: None, out: PathBuf::from("unused") }
     }
 
     /// The run stops anywhere: here after the cases, before the first arbitrary scene.
     #[test]
     fn a_short_run_is_a_certificate_and_goes_on_where_it_stopped() {
-        let go = |rays, from| run(&order(rays), None, from, |_| Ok(())).expect("run");
+        let go = |rays, from| run(&options(rays), None, from, |_| Ok(())).expect("run");
         let whole = go(12_000, Certificate::fresh(None));
         assert_eq!(whole.shortfalls(12_000), Vec::<String>::new(), "{}", summary(&whole));
         assert!(summary(&whole).contains("CPU, exit: way out"));

@@ -18,10 +18,12 @@ use metaball_core::Camera;
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
 use self::moved::moved;
-use self::plan::{Extent, Planned, Purpose, plan};
+use self::plan::{Planned, Purpose, plan};
 use self::record::{Chart, Group, SCHEMA};
 use crate::conclusions::conclusions;
-use crate::console::{self, ProgressBar};
+use crate::console::{self, ProgressBar, open_adapter};
+use crate::extent::Extent;
+use crate::page::software_remark;
 use harness::comparison::{self, compare_scene, steps};
 use harness::configuration::Configuration;
 use harness::machine::Provenance;
@@ -34,10 +36,10 @@ use picture_files::write_atomically;
 
 /// What to measure.
 #[derive(Debug, Clone)]
-pub struct Order {
+pub struct Options {
     /// How much.
     pub extent: Extent,
-    /// Scenes for error against time, in the place of the extent's own.
+    /// Scenes for error against time, instead of the extent's own.
     pub scenes: Vec<String>,
     /// The methods that take part; all where there are none.
     pub methods: Vec<&'static Method>,
@@ -62,17 +64,18 @@ const TIME_LIMIT_MS: f64 = 4_000.0;
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn chart(order: &Order) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&order.adapter)?;
-    console::note(&gpu.report().to_string());
-    let path = order.out.join("chart.json");
-    let plan = plan(order.extent, &order.scenes, &order.methods);
-    let mut chart = Chart::begin(&gpu, order);
+pub fn chart(options: &Options) -> anyhow::Result<()> {
+    let gpu = open_adapter(&options.adapter)?;
+    let path = options.out.join("chart.json");
+    let plan = plan(options.extent, &options.scenes, &options.methods);
+    let mut chart = Chart::begin(&gpu, options);
     let previous = Chart::read(&path)?.filter(|previous| previous.is_like(&chart));
     let mut before = None;
     match previous {
         Some(previous) if previous.complete => before = Some(previous),
-        Some(previous) if !order.fresh && previous.provenance.commit == chart.provenance.commit => {
+        Some(previous)
+            if !options.fresh && previous.provenance.commit == chart.provenance.commit =>
+        {
             console::note(&format!(
                 "going on with {}: {} of {} scenes are done",
                 path.display(),
@@ -89,8 +92,8 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
     chart.moved = before.map(|before| moved(&before, &chart));
     chart.write(&path)?;
     let records = chart.groups.iter().flat_map(|group| &group.records);
-    write_csv(&order.out.join("chart.csv"), records)?;
-    let page = order.out.join("chart.html");
+    write_csv(&options.out.join("chart.csv"), records)?;
+    let page = options.out.join("chart.html");
     write_atomically(&page, page::page(&chart).as_bytes())?;
 
     for sentence in conclusions(&chart.error_records()) {
@@ -114,20 +117,18 @@ pub fn chart(order: &Order) -> anyhow::Result<()> {
 }
 
 impl Chart {
-    fn begin(gpu: &Gpu, order: &Order) -> Self {
-        let size = match order.extent {
+    fn begin(gpu: &Gpu, options: &Options) -> Self {
+        let size = match options.extent {
             Extent::Quick => (64, 48),
             Extent::Whole if gpu.report().is_software() => (320, 240),
             Extent::Whole => (640, 480),
         };
-        let (width, height) = order.size.unwrap_or(size);
+        let (width, height) = options.size.unwrap_or(size);
         let mut remarks = Vec::new();
-        if order.extent == Extent::Quick {
+        if options.extent == Extent::Quick {
             remarks.push("Quick: scenes of a few hundred balls.".to_owned());
         }
-        if gpu.report().is_software() {
-            remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
-        }
+        remarks.extend(software_remark(gpu));
         Self {
             provenance: Provenance::here(SCHEMA),
             adapter: Adapter::from(gpu.report()),
@@ -272,13 +273,14 @@ fn skipped(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::assert_stands_alone;
 
     #[test]
     fn a_quick_chart_is_whole_and_resumes() {
         let Some(gpu) = Gpu::for_test() else { return };
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("chart.json");
-        let order = Order {
+        let options = Options {
             extent: Extent::Quick,
             scenes: vec!["two-merging".to_owned()],
             methods: Vec::new(),
@@ -287,7 +289,7 @@ mod tests {
             out: folder.path().to_owned(),
             fresh: false,
         };
-        let mut plan = plan(Extent::Quick, &order.scenes, &[]);
+        let mut plan = plan(Extent::Quick, &options.scenes, &[]);
         plan.truncate(2);
         for planned in &mut plan {
             let kept = ["fbvh", "fbvh, tolerance 1e-2", "illes"];
@@ -295,7 +297,7 @@ mod tests {
                 .configurations
                 .retain(|configuration| kept.contains(&configuration.to_string().as_str()));
         }
-        let mut chart = Chart::begin(&gpu, &order);
+        let mut chart = Chart::begin(&gpu, &options);
         chart.measure(&gpu, &plan[..1], &path).expect("measured");
 
         // What is there is not measured again, and what is missing is.
@@ -317,16 +319,14 @@ mod tests {
         );
         resumed.moved = Some(moved);
         let page = page::page(&resumed);
-        for forbidden in ["<script", "http", "url(", "{{", "NaN"] {
-            assert!(!page.contains(forbidden), "{forbidden}");
-        }
-        assert!(page.matches("<svg").count() >= 4 && page.ends_with("</html>\n"));
+        assert_stands_alone(&page, &["NaN"]);
+        assert!(page.matches("<svg").count() >= 4);
     }
 
     #[test]
     fn a_method_that_was_too_slow_is_left_out_of_harder_scenes() {
         let Some(gpu) = Gpu::for_test() else { return };
-        let order = Order {
+        let options = Options {
             extent: Extent::Quick,
             scenes: Vec::new(),
             methods: Vec::new(),
@@ -339,7 +339,7 @@ mod tests {
         let mut row = plan.iter().filter(|planned| planned.purpose == Purpose::Density);
         let (easy, hard) = (row.next().expect("a row"), row.next().expect("of two"));
         let bench = scene(easy).expect("loads");
-        let options = comparison::Options {
+        let comparison = comparison::Options {
             configurations: Vec::new(),
             size: (8, 6),
             sampling: FRAMES,
@@ -348,8 +348,9 @@ mod tests {
             imported: Vec::new(),
             counts_work: false,
         };
-        let record = skipped(&gpu, &bench, &options, &easy.configurations[0], "not run: too slow");
-        let mut chart = Chart::begin(&gpu, &order);
+        let record =
+            skipped(&gpu, &bench, &comparison, &easy.configurations[0], "not run: too slow");
+        let mut chart = Chart::begin(&gpu, &options);
         chart.groups.push(Group {
             purpose: Purpose::Density,
             spec: easy.spec.clone(),

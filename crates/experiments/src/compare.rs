@@ -1,19 +1,22 @@
 //! The command `compare`: scenes times methods, held against the reference, on one page.
 
+mod page;
+
 use std::path::PathBuf;
 
 use anyhow::Context;
 use bench_scenes::{Overrides, load};
-use metaball_core::gpu::{AdapterChoice, Gpu};
+use metaball_core::gpu::AdapterChoice;
 
 use crate::conclusions::conclusions;
-use crate::console::{self, ProgressBar, table};
-use crate::report::write_report;
+use crate::console::{self, ProgressBar, open_adapter, table};
+use crate::page::software_remark;
 use harness::comparison::{self, SceneComparison, compare_scene, steps};
 use harness::machine::Provenance;
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Record, Records, SCHEMA, Status};
 use harness::record_csv::write_csv;
+use picture_files::write_atomically;
 
 /// A few that differ: the real molecule first, then the smallest case with a blend, sparse and layered
 /// balls, and a real fluid.
@@ -36,19 +39,15 @@ pub struct Options {
 }
 
 /// Compares, prints a table, writes the page and the records. A scene that does not load or a method
-/// that does not build is told and left out.
+/// that does not build is reported and left out.
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing worked at all.
 pub fn compare(options: &Options) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&options.adapter)?;
-    console::note(&gpu.report().to_string());
+    let gpu = open_adapter(&options.adapter)?;
 
     let mut scenes = Vec::new();
-    let mut remarks = Vec::new();
-    if gpu.report().is_software() {
-        remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
-    }
+    let mut remarks: Vec<_> = software_remark(&gpu).into_iter().collect();
     let progress = ProgressBar::new(steps(&options.comparison) * options.scenes.len() as u64);
     for (index, spec) in options.scenes.iter().enumerate() {
         progress.stage(format!("{spec}: loading"));
@@ -82,12 +81,12 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
         }
     }
     for scene in &scenes {
-        tell(scene);
+        note_reasons(scene);
     }
     let page = options.out.join("index.html");
     records.write(&options.out.join("records.json"))?;
     write_csv(&options.out.join("records.csv"), &records.records)?;
-    write_report(&page, &records, &scenes, &remarks)?;
+    write_atomically(&page, page::page(&records, &scenes, &remarks).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
     anyhow::ensure!(worked, "nothing could be compared; the reasons stand above");
     Ok(())
@@ -134,8 +133,8 @@ pub(crate) fn results(records: &[Record]) -> String {
     table(&headings, &records.iter().filter_map(row).collect::<Vec<_>>())
 }
 
-/// Says what the table leaves out.
-fn tell(scene: &SceneComparison) {
+/// Prints what the table leaves out.
+fn note_reasons(scene: &SceneComparison) {
     for record in &scene.records {
         if let Some(reason) = &record.reason {
             console::note(&format!("{}, {}: {reason}", record.scene, record.method));

@@ -166,7 +166,7 @@ fn title(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::examples::measured_as;
+    use crate::testing::measured_as;
 
     fn scene(name: &str, methods: &[(&str, f64, usize)]) -> Vec<Record> {
         methods.iter().map(|&(method, ms, wrong)| measured_as(name, method, ms, wrong)).collect()

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use harness::progress::Progress;
 use indicatif::{HumanDuration, ProgressStyle};
+use metaball_core::gpu::{AdapterChoice, Gpu};
 
 /// One line of results. A reader who has seen enough and closed the pipe is no error.
 pub fn line(text: &str) {
@@ -16,6 +17,16 @@ pub fn line(text: &str) {
 /// One line about how things went, on standard error.
 pub fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// Opens an adapter, and says which.
+///
+/// # Errors
+/// When there is none of that kind.
+pub fn open_adapter(choice: &AdapterChoice) -> anyhow::Result<Gpu> {
+    let gpu = Gpu::new(choice)?;
+    note(&gpu.report().to_string());
+    Ok(gpu)
 }
 
 /// A bar that counts steps of known number; where nobody watches, one line for each stage.

@@ -215,7 +215,7 @@ mod tests {
     use harness::record::Status;
 
     use super::*;
-    use crate::examples::measured_as;
+    use crate::testing::measured_as;
 
     #[test]
     fn only_what_is_beyond_the_spread_has_changed() {

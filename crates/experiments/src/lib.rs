@@ -11,12 +11,13 @@ pub mod compare;
 pub mod conclusions;
 pub mod console;
 pub mod diff;
-#[cfg(test)]
-mod examples;
+pub mod extent;
 pub mod html;
 mod page;
 pub mod plot;
-pub mod report;
 pub mod score;
 pub mod stability;
+pub mod table;
 pub mod tables;
+#[cfg(test)]
+mod testing;

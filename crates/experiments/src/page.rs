@@ -3,6 +3,7 @@
 use crate::html::{escape, fill};
 use harness::machine::Provenance;
 use harness::record::Adapter;
+use metaball_core::gpu::Gpu;
 
 /// A page. `body` is the template of what stands beneath the title, which is HTML as the parts are.
 pub(crate) fn page(title: &str, body: &str, parts: &[(&str, String)]) -> String {
@@ -43,4 +44,10 @@ pub(crate) fn fact(term: &str, text: &str) -> String {
 /// What a reader should know first.
 pub(crate) fn remark_paragraphs(remarks: &[String]) -> String {
     remarks.iter().map(|text| format!("<p class=\"remark\">{}</p>\n", escape(text))).collect()
+}
+
+/// What a reader of times should know where the CPU has drawn.
+pub(crate) fn software_remark(gpu: &Gpu) -> Option<String> {
+    let text = "Drawn on the CPU: these times say nothing of a GPU.";
+    gpu.report().is_software().then(|| text.to_owned())
 }

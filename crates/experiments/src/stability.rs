@@ -18,7 +18,7 @@ use self::cell::{Cell, Outcome};
 use self::patience::rests;
 use self::record::{Limit, SCHEMA, Stability};
 use self::stand::Stand;
-use crate::console::{self, ProgressBar, table};
+use crate::console::{self, ProgressBar, open_adapter, table};
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
 use harness::machine::Provenance;
@@ -27,7 +27,7 @@ use picture_files::write_atomically;
 
 /// What to try.
 #[derive(Debug, Clone)]
-pub struct Order {
+pub struct Options {
     /// A few values of each case only.
     pub quick: bool,
     /// Names of cases; all when empty.
@@ -45,13 +45,15 @@ pub struct Order {
 ///
 /// # Errors
 /// Without an adapter, when the device fails, or when a file cannot be written.
-pub fn stability(order: &Order) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&order.adapter)?;
-    console::note(&gpu.report().to_string());
+pub fn stability(options: &Options) -> anyhow::Result<()> {
+    let gpu = open_adapter(&options.adapter)?;
     let chosen: Vec<_> =
-        if order.cases.is_empty() { cases().iter().collect() } else { order.cases.clone() };
-    let methods =
-        if order.methods.is_empty() { stability_configurations() } else { order.methods.clone() };
+        if options.cases.is_empty() { cases().iter().collect() } else { options.cases.clone() };
+    let methods = if options.methods.is_empty() {
+        stability_configurations()
+    } else {
+        options.methods.clone()
+    };
 
     let mut stability = Stability {
         provenance: Provenance::here(SCHEMA),
@@ -59,9 +61,9 @@ pub fn stability(order: &Order) -> anyhow::Result<()> {
         limits: Vec::new(),
         cells: Vec::new(),
     };
-    let unfinished = order.out.join("unfinished.json");
+    let unfinished = options.out.join("unfinished.json");
     let left = stability.unfinished(&unfinished).unwrap_or_default();
-    climb(&gpu, order.quick, (&chosen, &methods), left, |cells| {
+    climb(&gpu, options.quick, (&chosen, &methods), left, |cells| {
         stability.cells = cells.to_vec();
         stability.write(&unfinished)
     })?;
@@ -72,8 +74,8 @@ pub fn stability(order: &Order) -> anyhow::Result<()> {
     let of_case = |case| methods.iter().filter_map(move |method| limit_of(case, method));
     stability.limits = chosen.iter().flat_map(of_case).collect();
     console::line(&summary(&stability, &chosen, &methods));
-    let page = order.out.join("index.html");
-    stability.write(&order.out.join("records.json"))?;
+    let page = options.out.join("index.html");
+    stability.write(&options.out.join("records.json"))?;
     write_atomically(&page, page::page(&stability, &chosen, &methods).as_bytes())?;
     remove(&unfinished);
     console::line(&format!("\n{}", page.display()));

@@ -4,9 +4,12 @@
 
 pub mod auto;
 pub mod gourmel;
+pub mod heading;
 pub mod illes;
 pub mod kanamori;
 pub mod peers;
+mod report;
+pub mod scene_result;
 pub mod specialisation;
 
 use std::path::PathBuf;
@@ -14,18 +17,11 @@ use std::time::Duration;
 
 use metaball_core::gpu::AdapterChoice;
 
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// Small scenes, small pictures, few rounds: to see that everything works.
-    Quick,
-    /// Everything.
-    Whole,
-}
+use crate::extent::Extent;
 
 /// What to measure, and where the numbers go.
 #[derive(Debug, Clone)]
-pub struct Order {
+pub struct Options {
     /// How much.
     pub extent: Extent,
     /// Pixels across and down; the tables' own where left open.

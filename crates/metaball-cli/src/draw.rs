@@ -70,7 +70,7 @@ impl DrawingArgs {
                 Method::Listed(listed.into())
             }
         };
-        let backend = if cpu { Backend::Cpu } else { Backend::Adapter(shared.device.choice()) };
+        let backend = if cpu { Backend::Cpu } else { Backend::Adapter(shared.adapter.choice()) };
         let options = DrawOptions {
             method,
             size: shared.size,

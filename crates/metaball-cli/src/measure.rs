@@ -23,7 +23,7 @@ use metaball_core::{Camera, Scene};
 
 use crate::camera::CameraArgs;
 use crate::names::{case_parser, configuration_parser, method_parser};
-use crate::shared::{AdapterArgs, FieldArgs, PictureArgs};
+use crate::shared::{AdapterArgs, FieldArgs, PictureArgs, extent};
 use crate::values;
 
 #[derive(Debug, Args)]
@@ -77,7 +77,7 @@ impl CompareArgs {
             imported,
             counts_work: true,
         };
-        let (overrides, adapter) = (self.shared.overrides(), self.shared.device.choice());
+        let (overrides, adapter) = (self.shared.overrides(), self.shared.adapter.choice());
         compare(&compare::Options {
             scenes: self.scenes,
             overrides,
@@ -177,15 +177,14 @@ pub(crate) struct ChartArgs {
     #[arg(long, value_name = "DIR", default_value = "out/chart")]
     out: PathBuf,
     #[command(flatten)]
-    device: AdapterArgs,
+    adapter: AdapterArgs,
 }
 
 impl ChartArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        use chart::plan::Extent;
-        let Self { scenes, methods, quick, fresh, size, out, device } = self;
-        let extent = if quick { Extent::Quick } else { Extent::Whole };
-        chart(&chart::Order { extent, scenes, methods, size, adapter: device.choice(), out, fresh })
+        let Self { scenes, methods, quick, fresh, size, out, adapter } = self;
+        let (extent, adapter) = (extent(quick), adapter.choice());
+        chart(&chart::Options { extent, scenes, methods, size, adapter, out, fresh })
     }
 }
 
@@ -204,13 +203,13 @@ pub(crate) struct StabilityArgs {
     #[arg(long, value_name = "DIR", default_value = "out/stability")]
     out: PathBuf,
     #[command(flatten)]
-    device: AdapterArgs,
+    adapter: AdapterArgs,
 }
 
 impl StabilityArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { quick, cases, methods, out, device } = self;
-        stability(&stability::Order { quick, cases, methods, adapter: device.choice(), out })
+        let Self { quick, cases, methods, out, adapter } = self;
+        stability(&stability::Options { quick, cases, methods, adapter: adapter.choice(), out })
     }
 }
 
@@ -233,15 +232,15 @@ pub(crate) struct CertifyArgs {
     #[arg(long, value_name = "DIR", default_value = "out/certify")]
     out: PathBuf,
     #[command(flatten)]
-    device: AdapterArgs,
+    adapter: AdapterArgs,
 }
 
 impl CertifyArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { rays, quick, seed, cpu, out, device } = self;
+        let Self { rays, quick, seed, cpu, out, adapter } = self;
         let rays = rays.unwrap_or(if quick { 100_000 } else { 100_000_000 });
-        let adapter = (!cpu).then(|| device.choice());
-        certify(&certify::Order { rays, quick, seed: seed.into(), adapter, out })
+        let adapter = (!cpu).then(|| adapter.choice());
+        certify(&certify::Options { rays, quick, seed: seed.into(), adapter, out })
     }
 }
 
@@ -265,7 +264,7 @@ mod tests {
         assert_eq!(names, HEADLINERS);
         assert!(!compare.every_method && compare.frames.is_none());
         assert_eq!((compare.shared.size, compare.out), ((640, 480), PathBuf::from("out/compare")));
-        assert_eq!(compare.shared.device.choice(), AdapterChoice::Environment);
+        assert_eq!(compare.shared.adapter.choice(), AdapterChoice::Environment);
         assert_eq!(compare.shared.overrides(), Overrides::default());
     }
 
@@ -278,7 +277,7 @@ mod tests {
         let names: Vec<_> = compare.methods.iter().map(|method| method.name).collect();
         assert_eq!((names.as_slice(), compare.frames), (&["bvh", "fbvh"][..], Some(2)));
         assert_eq!(compare.shared.size, (32, 24));
-        assert_eq!(compare.shared.device.choice(), AdapterChoice::Named("llvm".to_owned()));
+        assert_eq!(compare.shared.adapter.choice(), AdapterChoice::Named("llvm".to_owned()));
         let wanted = Overrides {
             kernel: Some(Kernel::Wyvill),
             exponent: Some(3),

@@ -2,6 +2,7 @@
 
 use bench_scenes::Overrides;
 use clap::Args;
+use experiments::extent::Extent;
 use metaball_core::Kernel;
 use metaball_core::gpu::AdapterChoice;
 
@@ -14,7 +15,7 @@ pub(crate) struct PictureArgs {
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     pub(crate) size: (u32, u32),
     #[command(flatten)]
-    pub(crate) device: AdapterArgs,
+    pub(crate) adapter: AdapterArgs,
     #[command(flatten)]
     field: FieldArgs,
 }
@@ -65,4 +66,9 @@ impl AdapterArgs {
             None => AdapterChoice::Environment,
         }
     }
+}
+
+/// How much to measure.
+pub(crate) fn extent(quick: bool) -> Extent {
+    if quick { Extent::Quick } else { Extent::Whole }
 }

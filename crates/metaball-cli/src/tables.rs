@@ -1,13 +1,14 @@
 //! The command `tables`: a subcommand for each paper or question.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Subcommand};
 use experiments::tables::{
-    Extent, Order, TEN_MINUTES, auto, gourmel, illes, kanamori, peers, specialisation,
+    Options, TEN_MINUTES, auto, gourmel, illes, kanamori, peers, specialisation,
 };
 
-use crate::shared::AdapterArgs;
+use crate::shared::{AdapterArgs, extent};
 use crate::values;
 
 /// Whose tables are measured.
@@ -21,22 +22,10 @@ pub(crate) enum TablesCommand {
     GourmelLight(TablesArgs),
     /// Kanamori et al. 2008: table 1 against the CPU, the optimisations of section 5, time against
     /// error, figure 8 and the scenes of section 6.
-    Kanamori {
-        /// Everything, however long it takes; else what fits into ten minutes, and the rest is named.
-        #[arg(long, conflicts_with = "quick")]
-        full: bool,
-        #[command(flatten)]
-        tables: TablesArgs,
-    },
+    Kanamori(TimedTablesArgs),
     /// Illés and Szécsi: table 1 at 1024 × 768 pixels, how its phases grow, lists, figure 7, errors by
     /// kernel, memory.
-    Illes {
-        /// Everything, however long it takes; else what fits into ten minutes, and the rest is named.
-        #[arg(long, conflicts_with = "quick")]
-        full: bool,
-        #[command(flatten)]
-        tables: TablesArgs,
-    },
+    Illes(TimedTablesArgs),
     /// No paper: fbvh-certified on the CPU against POV-Ray's blob, time and error, power kernel α = 2.
     Peers {
         /// Known names, generators, or files; five scenes of 5,547 to 128,000 balls when left out.
@@ -78,41 +67,58 @@ pub(crate) struct TablesArgs {
     /// Small scenes, small pictures: at most a minute, to see that everything works.
     #[arg(long)]
     quick: bool,
-    /// Pixels across and down, in the place of the tables' own.
+    /// Pixels across and down, instead of the tables' own.
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     size: Option<(u32, u32)>,
     /// Folder for the page and the numbers.
     #[arg(long, value_name = "DIR", default_value = "out/tables")]
     out: PathBuf,
     #[command(flatten)]
-    device: AdapterArgs,
+    adapter: AdapterArgs,
+}
+
+/// What tables take that measure what fits into a time.
+#[derive(Debug, Args)]
+pub(crate) struct TimedTablesArgs {
+    /// Everything, however long it takes; else what fits into ten minutes, and the rest is named.
+    #[arg(long, conflicts_with = "quick")]
+    full: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
 }
 
 impl TablesArgs {
-    fn order(self) -> Order {
-        let Self { quick, size, out, device } = self;
-        Order { extent: extent(quick), size, adapter: device.choice(), out }
+    fn options(self) -> Options {
+        let Self { quick, size, out, adapter } = self;
+        Options { extent: extent(quick), size, adapter: adapter.choice(), out }
     }
 }
 
-fn extent(quick: bool) -> Extent {
-    if quick { Extent::Quick } else { Extent::Whole }
+impl TimedTablesArgs {
+    fn time(&self) -> Option<Duration> {
+        (!self.full).then_some(TEN_MINUTES)
+    }
 }
 
 impl TablesCommand {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let time = |full: bool| (!full).then_some(TEN_MINUTES);
         match self {
-            Self::Gourmel(tables) => gourmel::tables(&tables.order()),
-            Self::GourmelLight(tables) => gourmel::light::tables(&tables.order()),
-            Self::Kanamori { full, tables } => kanamori::tables(&tables.order(), time(full)),
-            Self::Illes { full, tables } => illes::tables(&tables.order(), time(full)),
-            Self::Peers { scenes, quick, size, out } => {
-                peers::tables(&peers::Order { scenes, extent: extent(quick), size, out })
+            Self::Gourmel(tables) => gourmel::tables(&tables.options()),
+            Self::GourmelLight(tables) => gourmel::light::tables(&tables.options()),
+            Self::Kanamori(timed) => {
+                let time = timed.time();
+                kanamori::tables(&timed.tables.options(), time)
             }
-            Self::Auto { scenes, tables } => auto::tables(&tables.order(), &scenes),
+            Self::Illes(timed) => {
+                let time = timed.time();
+                illes::tables(&timed.tables.options(), time)
+            }
+            Self::Peers { scenes, quick, size, out } => {
+                peers::tables(&peers::Options { scenes, extent: extent(quick), size, out })
+            }
+            Self::Auto { scenes, tables } => auto::tables(&tables.options(), &scenes),
             Self::Specialisation { scenes, tables } => {
-                specialisation::tables(&tables.order(), &scenes)
+                specialisation::tables(&tables.options(), &scenes)
             }
         }
     }
@@ -120,19 +126,22 @@ impl TablesCommand {
 
 #[cfg(test)]
 mod tests {
+    use experiments::extent::Extent;
+
     use super::*;
     use crate::{Command, parse};
 
     #[test]
     fn what_fits_and_everything() {
-        let Ok(Command::Tables { of: TablesCommand::Kanamori { full, tables } }) =
+        let Ok(Command::Tables { of: TablesCommand::Kanamori(timed) }) =
             parse("metaball tables kanamori --full --size 64x48")
         else {
             panic!("a legal command line");
         };
-        let order = tables.order();
-        assert!(full && order.extent == Extent::Whole);
-        assert_eq!((order.size, order.out), (Some((64, 48)), PathBuf::from("out/tables")));
+        assert!(timed.full && timed.time().is_none());
+        let options = timed.tables.options();
+        assert_eq!(options.extent, Extent::Whole);
+        assert_eq!((options.size, options.out), (Some((64, 48)), PathBuf::from("out/tables")));
         assert!(parse("metaball tables kanamori --full --quick").is_err());
         assert!(parse("metaball tables auto --full").is_err());
         assert!(parse("metaball tables").is_err());

@@ -48,7 +48,11 @@ fn with_oracle(
     if let Some(reason) = configuration.technique.refusal(&fixture.scene.scene) {
         return refuses(gpu, configuration.renderer(false).as_mut(), &fixture.scene.scene, reason);
     }
-    pass(&fixture.judge.judge(&picture(gpu, scene, configuration)?, &configuration.technique.terms()))
+    pass(
+        &fixture
+            .judge
+            .judge(&picture(gpu, scene, configuration)?, &configuration.technique.terms()),
+    )
 }
 
 fn refuses(

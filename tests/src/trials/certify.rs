@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use experiments::certify::record::Certificate;
-use experiments::certify::{Order, run};
+use experiments::certify::{Options, run};
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 
@@ -20,8 +20,8 @@ pub(super) fn trials() -> Vec<Trial> {
 
 fn a_short_run(gpu: &Gpu) -> Result<(), Failed> {
     let out = PathBuf::new();
-    let order = Order { rays: RAYS, quick: true, seed: 1, adapter: None, out };
-    let certificate = run(&order, Some(gpu), Certificate::fresh(Some(gpu)), |_| Ok(()))?;
+    let options = Options { rays: RAYS, quick: true, seed: 1, adapter: None, out };
+    let certificate = run(&options, Some(gpu), Certificate::fresh(Some(gpu)), |_| Ok(()))?;
     let shortfalls = certificate.shortfalls(RAYS);
     if !shortfalls.is_empty() {
         return Err(format!("{}\n{:#?}", shortfalls.join("; "), certificate.wrong).into());

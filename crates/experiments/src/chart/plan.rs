@@ -3,19 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::compare::DEFAULT_SCENES;
+use crate::extent::Extent;
 use harness::configuration::{Configuration, sweeps};
 use harness::methods::{Method, methods};
 use harness::technique::Technique;
-
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Extent {
-    /// What tells methods apart.
-    Whole,
-    /// Scenes of a few hundred balls, to see that everything works.
-    Quick,
-}
 
 /// What a scene is measured for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,7 +16,7 @@ pub enum Purpose {
     Error,
     /// Time and memory against the number of balls, of scenes by this generator.
     Growth(String),
-    /// Time against density: one place and count of balls, growing radii, and a threshold that
+    /// Time against density: one camera and count of balls, growing radii, and a threshold that
     /// keeps the number of pixels that hit.
     Density,
 }

@@ -69,7 +69,7 @@ fn errors(measured: &Measured) -> Errors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::examples::measured_as;
+    use crate::testing::measured_as;
 
     #[test]
     fn a_setting_that_is_not_listed_shows_what_the_list_costs() {

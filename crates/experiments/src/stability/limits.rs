@@ -41,32 +41,24 @@ const CUBICS: &[Limit] = &[
     ("shuffled", &[(20.0, Lost)]),
 ];
 
+/// The limits of `kanamori` and of `kanamori+fine`: a finer clipping helps neither against lists that are
+/// too short nor against an f32 distance from 10⁶ radii away.
+///
+/// Section 7: points that coincide are lost, and more balls than a list of 14 holds are drawn as supports
+/// (section 4.2).
+const PEELING: &[Limit] = &[
+    ("coincident", &[(2.0, Lost)]),
+    ("overlapping", &[(15.0, Told)]),
+    ("concentric", &[(65.0, Told)]),
+    ("common-entry", &[(2.0, Lost)]),
+    ("distance", &[(1e4, Coarse), (1e6, Broken)]),
+];
+
 /// The limits of each configuration, by case. An outcome goes on to the end of the case's values or to the
 /// next outcome; what is not listed is right. Measured on a software adapter.
 const LIMITS: &[(&str, &[Limit])] = &[
-    // Section 7: points that coincide are lost, and more balls than a list of 14 holds are drawn as
-    // supports (section 4.2).
-    (
-        "kanamori",
-        &[
-            ("coincident", &[(2.0, Lost)]),
-            ("overlapping", &[(15.0, Told)]),
-            ("concentric", &[(65.0, Told)]),
-            ("common-entry", &[(2.0, Lost)]),
-            ("distance", &[(1e4, Coarse), (1e6, Broken)]),
-        ],
-    ),
-    // The same: a finer clipping does not help, nor against an f32 distance from 10⁶ radii away.
-    (
-        "kanamori+fine",
-        &[
-            ("coincident", &[(2.0, Lost)]),
-            ("overlapping", &[(15.0, Told)]),
-            ("concentric", &[(65.0, Told)]),
-            ("common-entry", &[(2.0, Lost)]),
-            ("distance", &[(1e4, Coarse), (1e6, Broken)]),
-        ],
-    ),
+    ("kanamori", PEELING),
+    ("kanamori+fine", PEELING),
     // Undecided where it says so: an f32 field this close to T.
     (
         "kanamori-robust",

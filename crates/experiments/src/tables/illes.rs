@@ -6,7 +6,7 @@ pub mod kernels;
 mod page;
 pub mod paper;
 pub mod run;
-mod text;
+mod tables;
 
 use std::time::{Duration, Instant};
 
@@ -18,14 +18,15 @@ use serde::{Deserialize, Serialize};
 use self::growth::{Growth, growth};
 use self::kernels::{KernelRow, kernels};
 use self::paper::{FIGURE_7, Printed, TABLE};
-use self::run::{Phases, Run, SETTINGS};
-use crate::console;
-use crate::tables::{Extent, Order};
-use harness::machine::Provenance;
+use self::run::{Phases, Run, VARIANTS};
+use self::tables::Annotated;
+use crate::console::{self, open_adapter};
+use crate::extent::Extent;
+use crate::page::software_remark;
+use crate::tables::Options;
+use crate::tables::heading::Heading;
+use crate::tables::report::{Report, publish};
 use harness::numbers::{decimal, grouped};
-use harness::output::write_json;
-use harness::record::Adapter;
-use picture_files::write_atomically;
 
 /// Name and version of the format of `illes.json`.
 pub const SCHEMA: &str = "metaball-tables-illes/1";
@@ -33,15 +34,11 @@ pub const SCHEMA: &str = "metaball-tables-illes/1";
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// Where it comes from; its format is [`SCHEMA`].
+    /// Its format is [`SCHEMA`].
     #[serde(flatten)]
-    pub provenance: Provenance,
-    /// What drew.
-    pub adapter: Adapter,
+    pub heading: Heading,
     /// Pixels across and down of table 1.
     pub size: (u32, u32),
-    /// What a reader should know.
-    pub remarks: Vec<String>,
     /// Table 1.
     pub table: Vec<Row>,
     /// Exponents over the number of particles.
@@ -59,13 +56,14 @@ pub struct Measurements {
 /// Bytes of an adapter on which 200,000 particles at 640 × 480 have to fit: 2 GiB.
 pub const SMALL_ADAPTER: u64 = 2 << 30;
 
-/// A setting on a scene, with what the paper has in this place.
+/// A variant on a scene, with what the paper prints of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The scene, as it was asked for.
     pub scene: String,
-    /// The setting.
-    pub setting: String,
+    /// The variant.
+    #[serde(rename = "setting")]
+    pub variant: String,
     /// The paper's milliseconds, where printed.
     pub paper: Option<Phases>,
     /// The paper's frames a second, where printed.
@@ -89,12 +87,12 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(order: &Order) -> Self {
+    fn new(options: &Options) -> Self {
         let of_paper = || TABLE.iter().map(|row| row.particles).collect();
-        match order.extent {
+        match options.extent {
             Extent::Quick => Self {
                 particles: vec![200, 800],
-                size: order.size.unwrap_or((64, 48)),
+                size: options.size.unwrap_or((64, 48)),
                 frames: 2,
                 kernels: vec![Kernel::Wyvill, Kernel::Perlin, Kernel::QUARTIC],
                 kernel_scene: "mud:60".to_owned(),
@@ -104,7 +102,7 @@ impl Plan {
             },
             Extent::Whole => Self {
                 particles: of_paper(),
-                size: order.size.unwrap_or((1024, 768)),
+                size: options.size.unwrap_or((1024, 768)),
                 frames: 3,
                 kernels: kernels(),
                 kernel_scene: "mud:5000".to_owned(),
@@ -121,27 +119,35 @@ impl Plan {
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order, time: Option<Duration>) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&order.adapter)?;
-    console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, &Plan::new(order), time)?;
-    console::line(&text::text(&measurements));
-    let page = order.out.join("illes.html");
-    write_json(&order.out.join("illes.json"), &measurements)?;
-    write_atomically(&page, page::page(&measurements).as_bytes())?;
-    console::line(&format!("\n{}", page.display()));
-    let measured = measurements.table.iter().any(|row| row.run.is_some());
-    anyhow::ensure!(measured, "nothing could be measured; see the page");
-    Ok(())
+pub fn tables(options: &Options, time: Option<Duration>) -> anyhow::Result<()> {
+    let gpu = open_adapter(&options.adapter)?;
+    publish(&measure(&gpu, &Plan::new(options), time)?, &options.out)
+}
+
+impl Report for Measurements {
+    const NAME: &'static str = "illes";
+
+    fn text(&self) -> String {
+        let text = |Annotated { table, notes }: &Annotated| {
+            let notes: String = notes.iter().map(|note| format!("\n  {note}")).collect();
+            format!("\n{}\n{}{notes}", table.title, table.text())
+        };
+        tables::tables(self).iter().map(text).collect::<Vec<_>>().join("\n")
+    }
+
+    fn page(&self) -> String {
+        page::page(self)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.table.iter().all(|row| row.run.is_none())
+    }
 }
 
 fn measure(gpu: &Gpu, plan: &Plan, time: Option<Duration>) -> anyhow::Result<Measurements> {
     let software = gpu.report().is_software();
-    let mut remarks = Vec::new();
-    if software {
-        remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
-    }
-    let mut bench = Bench { gpu, software, time, begun: Instant::now(), spent: Spent::default() };
+    let mut measurer =
+        Measurer { gpu, software, time, begun: Instant::now(), spent: Spent::default() };
 
     let mut rows = Vec::new();
     for &kernel in &plan.kernels {
@@ -153,10 +159,12 @@ fn measure(gpu: &Gpu, plan: &Plan, time: Option<Duration>) -> anyhow::Result<Mea
     let mut views = Vec::new();
     for (camera, fps) in scene.path.iter().zip(FIGURE_7) {
         let scene = BenchScene { camera: *camera, ..scene.clone() };
-        views.extend(bench.rows(&mud, plan.view_size, plan.frames, None, Some(fps), |_| Ok(scene)));
+        views.extend(
+            measurer.rows(&mud, plan.view_size, plan.frames, None, Some(fps), |_| Ok(scene)),
+        );
     }
     // The first of the views has the size and the number of particles that memory is asked for.
-    let memory = views.iter().take(SETTINGS.len()).cloned().collect();
+    let memory = views.iter().take(VARIANTS.len()).cloned().collect();
 
     let mut table = Vec::new();
     for &particles in &plan.particles {
@@ -164,16 +172,14 @@ fn measure(gpu: &Gpu, plan: &Plan, time: Option<Duration>) -> anyhow::Result<Mea
         let printed = TABLE.iter().find(|row| row.particles == particles);
         let printed = printed.map(|&Printed { phases, .. }| phases);
         let load = |spec: &str| Ok(load(spec, &Overrides::default())?);
-        table.extend(bench.rows(&spec, plan.size, plan.frames, printed, None, load));
+        table.extend(measurer.rows(&spec, plan.size, plan.frames, printed, None, load));
     }
 
     let runs: Vec<_> = table.iter().filter_map(|row| row.run.clone()).collect();
     Ok(Measurements {
-        provenance: Provenance::here(SCHEMA),
-        adapter: Adapter::from(gpu.report()),
+        heading: Heading::new(SCHEMA, Some(gpu), software_remark(gpu).into_iter().collect()),
         size: plan.size,
-        remarks,
-        growth: growth(&SETTINGS.map(|(name, ..)| name), &runs),
+        growth: growth(&VARIANTS.map(|(name, ..)| name), &runs),
         table,
         views,
         kernels: rows,
@@ -183,7 +189,7 @@ fn measure(gpu: &Gpu, plan: &Plan, time: Option<Duration>) -> anyhow::Result<Mea
 }
 
 /// What rows are measured with, and what they have taken.
-struct Bench<'a> {
+struct Measurer<'a> {
     gpu: &'a Gpu,
     software: bool,
     /// For everything; `None`: no limit.
@@ -213,8 +219,8 @@ impl Spent {
     }
 }
 
-impl Bench<'_> {
-    /// The rows of a scene, one for each setting. They are not measured where they would take longer
+impl Measurer<'_> {
+    /// The rows of a scene, one for each variant. They are not measured where they would take longer
     /// than there is time.
     fn rows(
         &mut self,
@@ -225,7 +231,7 @@ impl Bench<'_> {
         paper_fps: Option<f64>,
         load: impl FnOnce(&str) -> anyhow::Result<BenchScene>,
     ) -> Vec<Row> {
-        let row = |setting: &str, outcome: anyhow::Result<Run>| {
+        let row = |variant: &str, outcome: anyhow::Result<Run>| {
             let (run, why) = match outcome {
                 Ok(run) => {
                     let why = paper.map(|paper| explain(&run, &paper, self.software));
@@ -233,8 +239,8 @@ impl Bench<'_> {
                 }
                 Err(error) => (None, Some(format!("{error:#}"))),
             };
-            let (scene, setting) = (spec.to_owned(), setting.to_owned());
-            Row { scene, setting, paper, paper_fps, run, why }
+            let (scene, variant) = (spec.to_owned(), variant.to_owned());
+            Row { scene, variant, paper, paper_fps, run, why }
         };
         let particles = spec.rsplit(':').next().and_then(|count| count.parse().ok()).unwrap_or(0);
         let pixels = size.0 * size.1;
@@ -249,7 +255,7 @@ impl Bench<'_> {
                 decimal(left.as_secs_f64())
             );
             console::note(&format!("{spec}: {reason}"));
-            return SETTINGS.map(|(name, ..)| row(name, Err(anyhow::anyhow!("{reason}")))).to_vec();
+            return VARIANTS.map(|(name, ..)| row(name, Err(anyhow::anyhow!("{reason}")))).to_vec();
         }
         let start = Instant::now();
         let about = estimate.map_or_else(String::new, |estimate| {
@@ -263,10 +269,10 @@ impl Bench<'_> {
         let measured =
             load(spec).and_then(|scene| run::measure(self.gpu, &scene, size, frames, stage));
         let rows = match measured {
-            Ok(runs) => SETTINGS.iter().zip(runs).map(|((name, ..), run)| row(name, run)).collect(),
+            Ok(runs) => VARIANTS.iter().zip(runs).map(|((name, ..), run)| row(name, run)).collect(),
             Err(error) => {
                 let reason = format!("{error:#}");
-                SETTINGS.map(|(name, ..)| row(name, Err(anyhow::anyhow!("{reason}")))).to_vec()
+                VARIANTS.map(|(name, ..)| row(name, Err(anyhow::anyhow!("{reason}")))).to_vec()
             }
         };
         self.spent = Spent { particles, pixels, time: start.elapsed() };
@@ -283,9 +289,9 @@ fn explain(run: &Run, paper: &Phases, software: bool) -> String {
     let pairs = share(&run.phases).into_iter().zip(share(paper));
     let most = pairs.max_by(|(a, b), (c, d)| (a.1 - b.1).abs().total_cmp(&(c.1 - d.1).abs()));
     let Some(((name, ours), (_, theirs))) = most else { return String::new() };
-    let place = if software { "shaders run on the processor" } else { "another graphics card" };
+    let adapter = if software { "shaders run on the processor" } else { "another adapter" };
     format!(
-        "{name} is {} % of the phases here, {} % in the paper: {place}, and {} pixels have lists of {} \
+        "{name} is {} % of the phases here, {} % in the paper: {adapter}, and {} pixels have lists of {} \
          balls on average; the paper's scene and lists are not printed.",
         decimal(ours),
         decimal(theirs),
@@ -300,59 +306,57 @@ mod tests {
 
     use metaball_core::gpu::AdapterChoice;
 
-    use super::kernels::Outcome;
+    use super::kernels::Picture;
     use super::*;
+    use crate::testing::{assert_stands_alone, read_back};
 
     #[test]
     fn every_table_is_measured() {
         let Some(gpu) = Gpu::for_test() else { return };
-        let order = Order {
+        let options = Options {
             extent: Extent::Quick,
             size: None,
             adapter: AdapterChoice::Environment,
             out: PathBuf::new(),
         };
-        let measurements = measure(&gpu, &Plan::new(&order), None).expect("measured");
+        let measurements = measure(&gpu, &Plan::new(&options), None).expect("measured");
         let rows = || measurements.table.iter().chain(&measurements.views);
-        assert_eq!(rows().count(), 5 * SETTINGS.len());
+        assert_eq!(rows().count(), 5 * VARIANTS.len());
         for row in rows() {
             let run = row.run.as_ref().unwrap_or_else(|| panic!("{row:?}"));
             assert!(run.phases.sort > 0.0 && run.lists.nodes > 100, "{run:?}");
             // Rounding of supports to tiles and rectangles changes no list: all gather the same.
             assert!(run.lists.max >= run.lists.p99 && run.lists.mean >= 1.0);
         }
-        for scene in measurements.table.chunks(SETTINGS.len()) {
+        for scene in measurements.table.chunks(VARIANTS.len()) {
             let nodes = |row: &Row| row.run.as_ref().map(|run| run.lists.nodes);
             assert_eq!(nodes(&scene[0]), nodes(&scene[1]), "one order, one picture");
         }
-        assert_eq!(measurements.growth.len(), 1 + SETTINGS.len());
+        assert_eq!(measurements.growth.len(), 1 + VARIANTS.len());
         assert!(measurements.memory.iter().all(|row| row.run.is_some()));
         // Perlin's has no exact variant; the cubic is worse than the exact polynomial where there is one.
         let mut compared = 0;
         for row in &measurements.kernels {
-            let Outcome::Compared(cubic) = &row.cubic else { panic!("{row:?}") };
+            let Picture::Compared(cubic) = &row.cubic else { panic!("{row:?}") };
             match &row.exact {
-                Outcome::Compared(exact) => {
+                Picture::Compared(exact) => {
                     compared += 1;
                     assert!(exact.rel_rms_t < cubic.rel_rms_t, "{row:?}");
                 }
-                Outcome::Refused(reason) => assert!(reason.contains(&row.kernel), "{reason}"),
+                Picture::Refused(reason) => assert!(reason.contains(&row.kernel), "{reason}"),
             }
         }
         assert_eq!(compared, 2, "Wyvill's and the quartic");
 
-        let json = serde_json::to_string(&measurements).expect("JSON");
-        let back: Measurements = serde_json::from_str(&json).expect("as written");
+        let back = read_back(&measurements);
         assert_eq!(
-            (back.provenance.schema.as_str(), back.table.len()),
+            (back.heading.provenance.schema.as_str(), back.table.len()),
             (SCHEMA, measurements.table.len())
         );
         let page = page::page(&measurements);
-        for forbidden in ["<script", "http", "url(", "{{"] {
-            assert!(!page.contains(forbidden), "{forbidden}");
-        }
-        assert!(page.contains("Table 1") && page.ends_with("</html>\n"));
-        assert!(text::text(&measurements).contains("mud:800"));
+        assert_stands_alone(&page, &[]);
+        assert!(page.contains("Table 1"));
+        assert!(measurements.text().contains("mud:800"));
     }
 
     #[test]
@@ -360,10 +364,11 @@ mod tests {
         let Some(gpu) = Gpu::for_test() else { return };
         let spent = Spent { particles: 100, pixels: 100, time: Duration::from_secs(1) };
         let time = Some(Duration::from_secs(30));
-        let mut bench = Bench { gpu: &gpu, software: true, time, begun: Instant::now(), spent };
+        let mut measurer =
+            Measurer { gpu: &gpu, software: true, time, begun: Instant::now(), spent };
         let never = |_: &str| -> anyhow::Result<BenchScene> { panic!("not to be loaded") };
-        let rows = bench.rows("mud:4000", (10, 10), 1, None, None, never);
-        assert_eq!(rows.len(), SETTINGS.len());
+        let rows = measurer.rows("mud:4000", (10, 10), 1, None, None, never);
+        assert_eq!(rows.len(), VARIANTS.len());
         for row in rows {
             assert!(row.why.is_some_and(|why| why.starts_with("Not run: it may take 40.0 s")));
         }

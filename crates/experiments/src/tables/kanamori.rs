@@ -5,22 +5,23 @@ mod page;
 pub mod paper;
 pub mod plan;
 pub mod run;
-pub mod settings;
+pub mod variant;
 
 use std::time::{Duration, Instant};
 
 use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
-use self::plan::{Bout, Part};
-use self::run::{GpuRun, Measured, Outcome, Run};
-use crate::console::{self, ProgressBar};
-use crate::tables::{Extent, Order};
-use harness::machine::Provenance;
+use self::plan::{Part, PlannedScene};
+use self::run::{GpuRun, Measured, PartResult, VariantResult};
+use crate::console::{ProgressBar, open_adapter};
+use crate::extent::Extent;
+use crate::table::{Column, Table};
+use crate::tables::Options;
+use crate::tables::heading::Heading;
+use crate::tables::report::{Report, publish};
+use crate::tables::scene_result::SceneResult;
 use harness::numbers::{decimal, small};
-use harness::output::write_json;
-use harness::record::Adapter;
-use picture_files::write_atomically;
 
 /// Name and version of the format of `kanamori.json`.
 pub const SCHEMA: &str = "metaball-tables-kanamori/1";
@@ -28,15 +29,12 @@ pub const SCHEMA: &str = "metaball-tables-kanamori/1";
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// Where it comes from; its format is [`SCHEMA`].
+    /// Its format is [`SCHEMA`].
     #[serde(flatten)]
-    pub provenance: Provenance,
-    /// What drew.
-    pub adapter: Adapter,
-    /// What a reader should know.
-    pub remarks: Vec<String>,
-    /// All bouts, in the order measured.
-    pub bouts: Vec<Outcome>,
+    pub heading: Heading,
+    /// All scenes, in the order measured.
+    #[serde(alias = "bouts")]
+    pub scenes: Vec<PartResult>,
 }
 
 /// Measures, prints the tables, and writes `kanamori.html` and `kanamori.json`. What does not fit into
@@ -44,28 +42,36 @@ pub struct Measurements {
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order, time: Option<Duration>) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&order.adapter)?;
-    console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, order, time.unwrap_or(Duration::MAX));
-    for part in Part::ALL {
-        console::line(&format!("\n{}", part.title()));
-        console::line(&console::table(&HEADINGS, &rows(part, &measurements.bouts)));
-    }
-    let page = order.out.join("kanamori.html");
-    write_json(&order.out.join("kanamori.json"), &measurements)?;
-    write_atomically(&page, page::page(&measurements).as_bytes())?;
-    console::line(&format!("\n{}", page.display()));
-    let measured = measurements.bouts.iter().any(|bout| bout.result.is_ok());
-    anyhow::ensure!(measured, "nothing could be measured; see the page");
-    Ok(())
+pub fn tables(options: &Options, time: Option<Duration>) -> anyhow::Result<()> {
+    let gpu = open_adapter(&options.adapter)?;
+    publish(&measure(&gpu, options, time.unwrap_or(Duration::MAX)), &options.out)
 }
 
-fn measure(gpu: &Gpu, order: &Order, room: Duration) -> Measurements {
-    let bouts = plan::bouts(order.extent, order.size);
+impl Report for Measurements {
+    const NAME: &'static str = "kanamori";
+
+    fn text(&self) -> String {
+        let part = |&part: &Part| {
+            let table = table(part, &self.scenes);
+            format!("\n{}\n{}", table.title, table.text())
+        };
+        Part::ALL.iter().map(part).collect::<Vec<_>>().join("\n")
+    }
+
+    fn page(&self) -> String {
+        page::page(self)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.scenes.iter().all(|scene| scene.measured.result.is_err())
+    }
+}
+
+fn measure(gpu: &Gpu, options: &Options, time: Duration) -> Measurements {
+    let plan = plan::plan(options.extent, options.size);
     let mut remarks = Vec::new();
-    if order.extent == Extent::Quick {
-        remarks.push("Quick: small scenes and pictures in the place of the paper's.".to_owned());
+    if options.extent == Extent::Quick {
+        remarks.push("Quick: small scenes and pictures instead of the paper's.".to_owned());
     }
     if gpu.report().is_software() {
         remarks.push(
@@ -74,49 +80,42 @@ fn measure(gpu: &Gpu, order: &Order, room: Duration) -> Measurements {
                 .to_owned(),
         );
     }
-    let steps = |bout: &Bout| bout.settings.len() as u64 * run::STEPS;
-    let progress = ProgressBar::new(bouts.iter().map(steps).sum());
-    let mut clock = Clock { begun: Instant::now(), room, pace: None };
+    let steps = |planned: &PlannedScene| planned.variants.len() as u64 * run::STEPS;
+    let progress = ProgressBar::new(plan.iter().map(steps).sum());
+    let mut clock = Clock { begun: Instant::now(), time, pace: None };
     let mut done = 0;
-    let mut outcomes = Vec::new();
-    for bout in bouts {
-        let result = match clock.refusal(&bout) {
-            Some(refusal) => Err(refusal),
-            None => clock.time(&bout, || run::measure(gpu, &bout, &progress)),
+    let mut scenes = Vec::new();
+    for planned in plan {
+        let result = match clock.refusal(&planned) {
+            Some(refusal) => Err(anyhow::Error::msg(refusal)),
+            None => clock.measure(&planned, || run::measure(gpu, &planned, &progress)),
         };
-        done += steps(&bout);
+        done += steps(&planned);
         progress.reach(done);
-        outcomes.push(Outcome {
-            part: bout.part,
-            scene: bout.spec,
-            size: bout.size,
-            paper_gpu_ms: bout.paper_ms.map(|(gpu, _)| gpu),
-            paper_cpu_ms: bout.paper_ms.and_then(|(_, cpu)| cpu),
-            result,
+        scenes.push(PartResult {
+            part: planned.part,
+            measured: SceneResult::new(&planned.spec, planned.size, result),
+            paper_gpu_ms: planned.paper_ms.map(|(gpu, _)| gpu),
+            paper_cpu_ms: planned.paper_ms.and_then(|(_, cpu)| cpu),
         });
     }
     drop(progress);
-    Measurements {
-        provenance: Provenance::here(SCHEMA),
-        adapter: Adapter::from(gpu.report()),
-        remarks,
-        bouts: outcomes,
-    }
+    Measurements { heading: Heading::new(SCHEMA, Some(gpu), remarks), scenes }
 }
 
-/// How long bouts take, and how long they may.
+/// How long scenes take, and how long they may.
 struct Clock {
     begun: Instant,
-    room: Duration,
-    /// Seconds for each variant and pixel of the last bout.
+    time: Duration,
+    /// Seconds for each variant and pixel of the last scene.
     pace: Option<f64>,
 }
 
 impl Clock {
-    /// Why a bout is not begun, if it is not: at the pace of the last one it would not end in time.
-    fn refusal(&self, bout: &Bout) -> Option<String> {
-        let left = self.room.saturating_sub(self.begun.elapsed());
-        let takes = self.pace.map_or(0.0, |pace| pace * work_of(bout));
+    /// Why a scene is not begun, if it is not: at the pace of the last one it would not end in time.
+    fn refusal(&self, planned: &PlannedScene) -> Option<String> {
+        let left = self.time.saturating_sub(self.begun.elapsed());
+        let takes = self.pace.map_or(0.0, |pace| pace * work_of(planned));
         (left.is_zero() || takes > left.as_secs_f64()).then(|| {
             format!(
                 "not run: would take about {takes:.0} s of the {} s that are left; use --full",
@@ -125,52 +124,51 @@ impl Clock {
         })
     }
 
-    fn time(
+    fn measure(
         &mut self,
-        bout: &Bout,
+        planned: &PlannedScene,
         measure: impl FnOnce() -> anyhow::Result<Measured>,
-    ) -> Result<Measured, String> {
+    ) -> anyhow::Result<Measured> {
         let start = Instant::now();
         let result = measure();
-        self.pace = Some(start.elapsed().as_secs_f64() / work_of(bout));
-        result.map_err(|error| format!("{error:#}"))
+        self.pace = Some(start.elapsed().as_secs_f64() / work_of(planned));
+        result
     }
 }
 
 /// Variants times pixels.
-fn work_of(bout: &Bout) -> f64 {
-    let (width, height) = bout.size;
-    bout.settings.len() as f64 * f64::from(width) * f64::from(height)
+fn work_of(planned: &PlannedScene) -> f64 {
+    let (width, height) = planned.size;
+    planned.variants.len() as f64 * f64::from(width) * f64::from(height)
 }
 
-/// Columns of every table; those of the first group name a row.
-const HEADINGS: [&str; 15] = [
-    "scene",
-    "balls",
-    "picture",
-    "setting",
-    "frame ms",
-    "paper ms",
-    "× first",
-    "CPU ms",
-    "paper ms",
-    "GPU gain",
-    "paper",
-    "culled %",
-    "layers",
-    "iterations",
-    "error of t",
-];
-
-/// The rows of a part, a variant each.
-fn rows(part: Part, bouts: &[Outcome]) -> Vec<Vec<String>> {
-    bouts.iter().filter(|bout| bout.part == part).flat_map(rows_of).collect()
+/// The table of a part, a row for each variant.
+fn table(part: Part, scenes: &[PartResult]) -> Table {
+    let columns = [
+        Column::text("scene"),
+        Column::number("balls"),
+        Column::number("picture"),
+        Column::text("variant"),
+        Column::number("frame").of("ms"),
+        Column::number("paper").of("ms"),
+        Column::number("× first"),
+        Column::number("CPU").of("ms"),
+        Column::number("paper").of("ms"),
+        Column::number("GPU gain"),
+        Column::number("paper"),
+        Column::number("culled").of("%"),
+        Column::number("layers"),
+        Column::number("iterations"),
+        Column::number("error of t"),
+    ];
+    let rows = scenes.iter().filter(|scene| scene.part == part).flat_map(rows_of).collect();
+    Table { title: part.title().to_owned(), columns: columns.into(), rows }
 }
 
-fn rows_of(bout: &Outcome) -> Vec<Vec<String>> {
-    let (width, height) = bout.size;
-    let head = |balls: String| vec![bout.scene.clone(), balls, format!("{width}×{height}")];
-    let measured = match &bout.result {
+fn rows_of(scene: &PartResult) -> Vec<Vec<String>> {
+    let SceneResult { scene: name, size: (width, height), result } = &scene.measured;
+    let head = |balls: String| vec![name.clone(), balls, format!("{width}×{height}")];
+    let measured = match result {
         Ok(measured) => measured,
         Err(reason) => {
             let mut row = head(String::new());
@@ -179,12 +177,12 @@ fn rows_of(bout: &Outcome) -> Vec<Vec<String>> {
         }
     };
     let first = measured.runs.first().and_then(|run| run.result.as_ref().ok());
-    let row = |(index, run): (usize, &Run)| {
+    let row = |(index, run): (usize, &VariantResult)| {
         let mut row = head(measured.balls.to_string());
-        row.push(run.setting.clone());
+        row.push(run.variant.clone());
         match &run.result {
             Ok(gpu) => {
-                row.extend(cells(bout, measured, gpu, first.filter(|_| index > 0), index == 0));
+                row.extend(cells(scene, measured, gpu, first.filter(|_| index > 0), index == 0));
             }
             Err(reason) => row.push(reason.clone()),
         }
@@ -195,7 +193,7 @@ fn rows_of(bout: &Outcome) -> Vec<Vec<String>> {
 
 /// What stands beside the name of a variant. The paper's numbers and the CPU's are the first one's.
 fn cells(
-    bout: &Outcome,
+    scene: &PartResult,
     measured: &Measured,
     gpu: &GpuRun,
     first: Option<&GpuRun>,
@@ -205,13 +203,13 @@ fn cells(
     let cpu = measured.cpu.frame_ms.median;
     let if_first =
         |value: Option<f64>| value.filter(|_| is_first).map_or_else(String::new, decimal);
-    let paper_gain = bout.paper_cpu_ms.zip(bout.paper_gpu_ms).map(|(cpu, gpu)| cpu / gpu);
+    let paper_gain = scene.paper_cpu_ms.zip(scene.paper_gpu_ms).map(|(cpu, gpu)| cpu / gpu);
     [
         decimal(frame),
-        if_first(bout.paper_gpu_ms),
+        if_first(scene.paper_gpu_ms),
         first.map_or_else(String::new, |first| decimal(frame / first.frame_ms.median)),
         if_first(Some(cpu)),
-        if_first(bout.paper_cpu_ms),
+        if_first(scene.paper_cpu_ms),
         if_first(Some(cpu / frame)),
         if_first(paper_gain),
         gpu.facts.get("culled").map_or_else(String::new, |culled| decimal(100.0 * culled)),
@@ -235,6 +233,7 @@ mod tests {
 
     use super::*;
     use crate::tables::TEN_MINUTES;
+    use crate::testing::{assert_stands_alone, read_back};
 
     /// Everything is measured, the published variant errs no more than the paper's, and the page
     /// stands alone.
@@ -242,33 +241,32 @@ mod tests {
     fn a_quick_run_fills_every_row() {
         let Some(gpu) = Gpu::for_test() else { return };
         let (extent, adapter) = (Extent::Quick, AdapterChoice::Environment);
-        let order = Order { extent, size: None, adapter, out: PathBuf::new() };
-        let measurements = measure(&gpu, &order, Duration::MAX);
+        let options = Options { extent, size: None, adapter, out: PathBuf::new() };
+        let measurements = measure(&gpu, &options, Duration::MAX);
         for part in Part::ALL {
-            let mut bouts = measurements.bouts.iter().filter(|bout| bout.part == part);
-            let first = bouts.next().expect("each part has a bout");
-            assert!(first.result.is_ok(), "{first:?}");
-            for row in rows(part, &measurements.bouts) {
-                assert_eq!(row.len(), HEADINGS.len(), "{row:?}");
+            let mut scenes = measurements.scenes.iter().filter(|scene| scene.part == part);
+            let first = scenes.next().expect("each part has a scene");
+            assert!(first.measured.result.is_ok(), "{first:?}");
+            let Table { columns, rows, .. } = table(part, &measurements.scenes);
+            for row in rows {
+                assert_eq!(row.len(), columns.len(), "{row:?}");
             }
         }
-        let published = measurements.bouts.iter().filter_map(|bout| bout.result.as_ref().ok());
-        for measured in published.filter(|measured| measured.runs[0].setting == "published") {
+        let published =
+            measurements.scenes.iter().filter_map(|scene| scene.measured.result.as_ref().ok());
+        for measured in published.filter(|measured| measured.runs[0].variant == "published") {
             let run = measured.runs[0].result.as_ref().expect("measured");
             assert!(run.rel_rms_t.expect("hits") <= paper::ERROR_OF_T, "{run:?}");
         }
 
-        let text = serde_json::to_string(&measurements).expect("JSON");
-        let back: Measurements = serde_json::from_str(&text).expect("as written");
+        let back = read_back(&measurements);
         assert_eq!(
-            (back.provenance.schema.as_str(), back.bouts.len()),
-            (SCHEMA, measurements.bouts.len())
+            (back.heading.provenance.schema.as_str(), back.scenes.len()),
+            (SCHEMA, measurements.scenes.len())
         );
         let page = page::page(&measurements);
-        for forbidden in ["<script", "http", "url(", "not run", "{{"] {
-            assert!(!page.contains(forbidden), "{forbidden}");
-        }
-        assert!(page.contains("Figure 8") && page.ends_with("</html>\n"));
+        assert_stands_alone(&page, &["not run"]);
+        assert!(page.contains("Figure 8"));
     }
 
     #[test]
@@ -280,23 +278,22 @@ mod tests {
     /// What does not fit says so, in its row and on the page.
     #[test]
     fn what_is_left_out_is_named() {
-        let bout = plan::bouts(Extent::Whole, None).pop().expect("there are bouts");
-        let clock = |room, pace| Clock { begun: Instant::now(), room, pace };
-        assert_eq!(clock(Duration::MAX, Some(1.0)).refusal(&bout), None);
-        assert_eq!(clock(TEN_MINUTES, None).refusal(&bout), None);
-        let pace = Some(700.0 / work_of(&bout));
-        let refusal = clock(TEN_MINUTES, pace).refusal(&bout).expect("too long");
+        let planned = plan::plan(Extent::Whole, None).pop().expect("there are scenes");
+        let clock = |time, pace| Clock { begun: Instant::now(), time, pace };
+        assert_eq!(clock(Duration::MAX, Some(1.0)).refusal(&planned), None);
+        assert_eq!(clock(TEN_MINUTES, None).refusal(&planned), None);
+        let pace = Some(700.0 / work_of(&planned));
+        let refusal = clock(TEN_MINUTES, pace).refusal(&planned).expect("too long");
         assert!(refusal.starts_with("not run: would take about 700 s of the 599 s"), "{refusal}");
-        assert!(clock(Duration::ZERO, None).refusal(&bout).is_some());
+        assert!(clock(Duration::ZERO, None).refusal(&planned).is_some());
 
-        let outcome = Outcome {
+        let result = Err(anyhow::Error::msg(refusal.clone()));
+        let scene = PartResult {
             part: Part::Scenes,
-            scene: "far".to_owned(),
-            size: (4, 3),
+            measured: SceneResult::new("far", (4, 3), result),
             paper_gpu_ms: None,
             paper_cpu_ms: None,
-            result: Err(refusal.clone()),
         };
-        assert_eq!(rows(Part::Scenes, &[outcome]), [["far", "", "4×3", refusal.as_str()]]);
+        assert_eq!(table(Part::Scenes, &[scene]).rows, [["far", "", "4×3", refusal.as_str()]]);
     }
 }

@@ -11,20 +11,22 @@ use metaball_core::Kernel;
 use serde::{Deserialize, Serialize};
 
 use self::povray::{INSTALL, Povray};
-use self::run::{Bout, Measured, Outcome, Traced};
+use self::run::{Measured, PlannedScene, Traced};
 use crate::console::{self, ProgressBar};
-use crate::tables::{Extent, named_or};
-use harness::machine::Provenance;
+use crate::extent::Extent;
+use crate::table::{Column, Table};
+use crate::tables::heading::Heading;
+use crate::tables::named_or;
+use crate::tables::report::{Report, publish};
+use crate::tables::scene_result::SceneResult;
 use harness::numbers::{decimal, grouped, small};
-use harness::output::write_json;
-use picture_files::write_atomically;
 
 /// Name and version of the format of `peers.json`.
 pub const SCHEMA: &str = "metaball-tables-peers/1";
 
 /// What to measure.
 #[derive(Debug, Clone)]
-pub struct Order {
+pub struct Options {
     /// What [`bench_scenes::load`] takes; the extent's own where empty.
     pub scenes: Vec<String>,
     /// How much.
@@ -35,8 +37,8 @@ pub struct Order {
     pub out: PathBuf,
 }
 
-impl Order {
-    fn bouts(&self) -> Vec<Bout> {
+impl Options {
+    fn plan(&self) -> Vec<PlannedScene> {
         let (scenes, size, rounds): (&[&str], _, _) = match self.extent {
             Extent::Quick => (&["scattered:300", "pool:300"], (64, 48), 2),
             Extent::Whole => (
@@ -47,61 +49,63 @@ impl Order {
         };
         let size = self.size.unwrap_or(size);
         let specs = named_or(&self.scenes, scenes);
-        specs.into_iter().map(|spec| Bout { spec, size, rounds }).collect()
+        specs.into_iter().map(|spec| PlannedScene { spec, size, rounds }).collect()
     }
 }
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// Where it comes from; its format is [`SCHEMA`].
+    /// Its format is [`SCHEMA`].
     #[serde(flatten)]
-    pub provenance: Provenance,
+    pub heading: Heading,
     /// Threads of either tracer.
     pub threads: usize,
     /// What the peer calls itself; `null` where it is not installed.
     pub peer: Option<String>,
-    /// What a reader should know.
-    pub remarks: Vec<String>,
     /// The scenes, in the order measured.
-    pub scenes: Vec<Outcome>,
+    pub scenes: Vec<SceneResult<Measured>>,
 }
 
-/// Measures, prints the table, and writes it.
+/// Measures, prints the table, and writes `peers.html` and `peers.json`.
 ///
 /// # Errors
 /// When a file cannot be written, or nothing could be measured.
-pub fn tables(order: &Order) -> anyhow::Result<()> {
+pub fn tables(options: &Options) -> anyhow::Result<()> {
     let peer = Povray::find()?;
     if peer.is_none() {
         console::note(&absent());
     }
-    let measurements = measure(&order.bouts(), peer.as_ref());
-    console::line(&console::table(&HEADINGS, &rows(&measurements.scenes)));
-    for remark in &measurements.remarks {
-        console::line(&format!("  {remark}"));
+    publish(&measure(&options.plan(), peer.as_ref()), &options.out)
+}
+
+impl Report for Measurements {
+    const NAME: &'static str = "peers";
+
+    fn text(&self) -> String {
+        self.heading.text_with_remarks(&table(&self.scenes))
     }
-    let page = order.out.join("peers.html");
-    write_json(&order.out.join("peers.json"), &measurements)?;
-    write_atomically(&page, page::page(&measurements).as_bytes())?;
-    console::line(&format!("\n{}", page.display()));
-    let measured = measurements.scenes.iter().any(|scene| scene.result.is_ok());
-    anyhow::ensure!(measured, "nothing could be measured; see the page");
-    Ok(())
+
+    fn page(&self) -> String {
+        page::page(self)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.scenes.iter().all(|scene| scene.result.is_err())
+    }
 }
 
 fn absent() -> String {
     format!("POV-Ray is not installed: its rows are skipped. {INSTALL}")
 }
 
-fn measure(bouts: &[Bout], peer: Option<&Povray>) -> Measurements {
-    let progress = ProgressBar::new(bouts.iter().map(Bout::steps).sum());
-    let outcome = |bout: &Bout| {
-        let result = run::measure(bout, peer, &progress);
-        let (scene, size) = (bout.spec.clone(), bout.size);
-        Outcome { scene, size, result: result.map_err(|error| format!("{error:#}")) }
+fn measure(plan: &[PlannedScene], peer: Option<&Povray>) -> Measurements {
+    let progress = ProgressBar::new(plan.iter().map(PlannedScene::steps).sum());
+    let measured = |planned: &PlannedScene| {
+        let result = run::measure(planned, peer, &progress);
+        SceneResult::new(&planned.spec, planned.size, result)
     };
-    let scenes: Vec<_> = bouts.iter().map(outcome).collect();
+    let scenes: Vec<_> = plan.iter().map(measured).collect();
     drop(progress);
 
     let mut remarks = Vec::new();
@@ -116,46 +120,43 @@ fn measure(bouts: &[Bout], peer: Option<&Povray>) -> Measurements {
         ));
     }
     Measurements {
-        provenance: Provenance::here(SCHEMA),
+        heading: Heading::new(SCHEMA, None, remarks),
         threads: run::THREADS,
         peer: peer.map(|peer| peer.version().to_owned()),
-        remarks,
         scenes,
     }
 }
 
-fn replaced_kernel(outcome: &Outcome) -> Option<&str> {
-    let measured = outcome.result.as_ref().ok()?;
-    (measured.kernel != Kernel::QUARTIC.to_string()).then_some(outcome.scene.as_str())
+fn replaced_kernel(scene: &SceneResult<Measured>) -> Option<&str> {
+    let measured = scene.result.as_ref().ok()?;
+    (measured.kernel != Kernel::QUARTIC.to_string()).then_some(scene.scene.as_str())
 }
-
-/// Columns of the table.
-const HEADINGS: [&str; 13] = [
-    "scene",
-    "balls",
-    "tracer",
-    "prepare ms",
-    "trace ms",
-    "CPU ms",
-    "times as fast",
-    "hits",
-    "missed",
-    "phantom",
-    "wrong front",
-    "error of t",
-    "worst, radii",
-];
 
 /// Three rows a scene: ours, the peer's, and what the oracle says; or one with a reason.
-fn rows(scenes: &[Outcome]) -> Vec<Vec<String>> {
-    scenes.iter().flat_map(rows_of).collect()
+fn table(scenes: &[SceneResult<Measured>]) -> Table {
+    let columns = [
+        Column::text("scene"),
+        Column::number("balls"),
+        Column::text("tracer"),
+        Column::number("prepare").of("ms"),
+        Column::number("trace").of("ms"),
+        Column::number("CPU").of("ms"),
+        Column::number("times as fast"),
+        Column::number("hits"),
+        Column::number("missed"),
+        Column::number("phantom"),
+        Column::number("wrong front"),
+        Column::number("error of t"),
+        Column::number("worst").of("radii"),
+    ];
+    let rows = scenes.iter().flat_map(rows_of).collect();
+    Table { title: "Tracing on the CPU".to_owned(), columns: columns.into(), rows }
 }
 
-fn rows_of(outcome: &Outcome) -> Vec<Vec<String>> {
-    let head = |balls: &str, tracer: &str| {
-        vec![outcome.scene.clone(), balls.to_owned(), tracer.to_owned()]
-    };
-    let measured = match &outcome.result {
+fn rows_of(scene: &SceneResult<Measured>) -> Vec<Vec<String>> {
+    let head =
+        |balls: &str, tracer: &str| vec![scene.scene.clone(), balls.to_owned(), tracer.to_owned()];
+    let measured = match &scene.result {
         Ok(measured) => measured,
         Err(reason) => return vec![head("", reason)],
     };
@@ -204,10 +205,11 @@ fn cells(traced: &Traced, ratio: String) -> [String; 10] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::{assert_stands_alone, read_back};
 
-    fn quick() -> Vec<Bout> {
+    fn quick() -> Vec<PlannedScene> {
         let extent = Extent::Quick;
-        Order { scenes: Vec::new(), extent, size: None, out: PathBuf::new() }.bouts()
+        Options { scenes: Vec::new(), extent, size: None, out: PathBuf::new() }.plan()
     }
 
     /// Ours is right, and so is the peer on scenes as small as these: an independent program finds
@@ -219,34 +221,31 @@ mod tests {
             return;
         };
         let measurements = measure(&quick(), Some(&peer));
-        for outcome in &measurements.scenes {
-            let measured = outcome.result.as_ref().expect("measured");
+        for scene in &measurements.scenes {
+            let measured = scene.result.as_ref().expect("measured");
             let traced = measured.peer.as_ref().expect("traced");
-            assert_eq!(measured.ours.accuracy.wrong_verdicts(), 0, "{outcome:?}");
-            assert_eq!(traced.accuracy.wrong_verdicts(), 0, "{outcome:?}");
-            assert!(traced.hits > 100, "{outcome:?}");
+            assert_eq!(measured.ours.accuracy.wrong_verdicts(), 0, "{scene:?}");
+            assert_eq!(traced.accuracy.wrong_verdicts(), 0, "{scene:?}");
+            assert!(traced.hits > 100, "{scene:?}");
             // Two channels of 16 bits, the fine one wrapping 4,096 times, tell the depth to 4e-9 of
             // the range; what is left is its own error and an f32's.
-            assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-5, "{outcome:?}");
+            assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-5, "{scene:?}");
             assert_eq!(traced.trace_ms.samples.len(), 2);
         }
-        let text = serde_json::to_string(&measurements).expect("JSON");
-        let back: Measurements = serde_json::from_str(&text).expect("as written");
-        assert_eq!((back.provenance.schema.as_str(), back.scenes.len()), (SCHEMA, 2));
+        let back = read_back(&measurements);
+        assert_eq!((back.heading.provenance.schema.as_str(), back.scenes.len()), (SCHEMA, 2));
         let page = page::page(&measurements);
-        for forbidden in ["<script", "http", "url(", "{{", "skipped", "/tmp"] {
-            assert!(!page.contains(forbidden), "{forbidden}");
-        }
-        assert!(page.contains("POV-Ray 3") && page.ends_with("</html>\n"));
+        assert_stands_alone(&page, &["skipped", "/tmp"]);
+        assert!(page.contains("POV-Ray 3"));
     }
 
     /// Without the peer ours and the oracle's rows remain, and it is said what is missing.
     #[test]
     fn an_absent_peer_is_skipped_visibly() {
         let measurements = measure(&quick()[..1], None);
-        let rows = rows(&measurements.scenes);
+        let Table { columns, rows, .. } = table(&measurements.scenes);
         assert_eq!(rows.len(), 3);
-        assert!(rows[0].len() == HEADINGS.len() && rows[0][6].is_empty(), "{rows:?}");
+        assert!(rows[0].len() == columns.len() && rows[0][6].is_empty(), "{rows:?}");
         assert!(rows[1][2].contains("not installed") && rows[2][2] == "oracle", "{rows:?}");
         let page = page::page(&measurements);
         assert!(page.contains("apt-get install povray") && page.contains("skipped"), "{page}");
@@ -255,8 +254,8 @@ mod tests {
     /// What cannot be loaded is a row with a reason.
     #[test]
     fn a_scene_that_fails_is_named() {
-        let bout = Bout { spec: "nosuch".to_owned(), size: (4, 3), rounds: 1 };
-        let rows = rows(&measure(&[bout], None).scenes);
+        let planned = PlannedScene { spec: "nosuch".to_owned(), size: (4, 3), rounds: 1 };
+        let rows = table(&measure(&[planned], None).scenes).rows;
         assert!(rows.len() == 1 && rows[0][2].contains("nosuch"), "{rows:?}");
     }
 }

@@ -7,30 +7,31 @@ pub mod run;
 use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
-use self::run::{Bout, Measured, Outcome};
-use crate::console::{self, ProgressBar};
-use crate::tables::{Extent, Order, named_or};
-use harness::machine::Provenance;
+use self::run::{Measured, PlannedScene, SceneForms};
+use crate::console::{ProgressBar, open_adapter};
+use crate::extent::Extent;
+use crate::page::software_remark;
+use crate::table::{Column, Table};
+use crate::tables::heading::Heading;
+use crate::tables::report::{Report, publish};
+use crate::tables::{Options, named_or};
 use harness::methods::{HEADLINERS, Method, find};
 use harness::numbers::{decimal, grouped};
-use harness::output::write_json;
-use harness::record::Adapter;
-use picture_files::write_atomically;
 
 /// Name and version of the format of `specialisation.json`.
 pub const SCHEMA: &str = "metaball-tables-specialisation/1";
 
 /// Every scene with every published method and the certified tree.
-fn bouts(order: &Order, scenes: &[String]) -> Vec<Bout> {
-    let (own, size, rounds): (&[&str], _, _) = match order.extent {
+fn plan(options: &Options, scenes: &[String]) -> Vec<PlannedScene> {
+    let (own, size, rounds): (&[&str], _, _) = match options.extent {
         Extent::Quick => (&["scattered:300"], (32, 24), 2),
         Extent::Whole => (&["scattered-30k", "tornado-4k", "dam-break", "molecule"], (160, 120), 9),
     };
-    let size = order.size.unwrap_or(size);
+    let size = options.size.unwrap_or(size);
     let methods: Vec<&Method> = HEADLINERS.iter().filter_map(|name| find(name)).collect();
     let of_scene = |spec: String| {
-        let bout = move |&method| Bout { spec: spec.clone(), method, size, rounds };
-        methods.iter().map(bout).collect::<Vec<_>>()
+        let planned = move |&method| PlannedScene { spec: spec.clone(), method, size, rounds };
+        methods.iter().map(planned).collect::<Vec<_>>()
     };
     named_or(scenes, own).into_iter().flat_map(of_scene).collect()
 }
@@ -38,17 +39,14 @@ fn bouts(order: &Order, scenes: &[String]) -> Vec<Bout> {
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// Where it comes from; its format is [`SCHEMA`].
+    /// Its format is [`SCHEMA`].
     #[serde(flatten)]
-    pub provenance: Provenance,
-    /// What drew.
-    pub adapter: Adapter,
+    pub heading: Heading,
     /// Pixels across and down.
     pub size: (u32, u32),
-    /// What a reader should know.
-    pub remarks: Vec<String>,
     /// Scenes and methods, in the order measured.
-    pub outcomes: Vec<Outcome>,
+    #[serde(rename = "outcomes")]
+    pub scenes: Vec<SceneForms>,
 }
 
 /// Measures, prints the table, and writes `specialisation.html` and `specialisation.json`. Scenes are
@@ -56,74 +54,75 @@ pub struct Measurements {
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order, scenes: &[String]) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&order.adapter)?;
-    console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, &bouts(order, scenes))?;
-    console::line(&console::table(&HEADINGS, &rows(&measurements.outcomes)));
-    for remark in &measurements.remarks {
-        console::line(&format!("  {remark}"));
-    }
-    let page = order.out.join("specialisation.html");
-    write_json(&order.out.join("specialisation.json"), &measurements)?;
-    write_atomically(&page, page::page(&measurements).as_bytes())?;
-    console::line(&format!("\n{}", page.display()));
-    Ok(())
+pub fn tables(options: &Options, scenes: &[String]) -> anyhow::Result<()> {
+    let gpu = open_adapter(&options.adapter)?;
+    publish(&measure(&gpu, &plan(options, scenes))?, &options.out)
 }
 
-fn measure(gpu: &Gpu, bouts: &[Bout]) -> anyhow::Result<Measurements> {
-    let progress = ProgressBar::new(bouts.iter().map(Bout::steps).sum());
-    let mut remarks = Vec::new();
-    if gpu.report().is_software() {
-        remarks.push("Drawn on the CPU: these times say nothing of a GPU.".to_owned());
+impl Report for Measurements {
+    const NAME: &'static str = "specialisation";
+
+    fn text(&self) -> String {
+        self.heading.text_with_remarks(&table(&self.scenes))
     }
-    let mut outcomes = Vec::new();
-    for bout in bouts {
-        match bout.measure(gpu, &progress) {
-            Ok(outcome) => outcomes.push(outcome),
+
+    fn page(&self) -> String {
+        page::page(self)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.scenes.is_empty()
+    }
+}
+
+fn measure(gpu: &Gpu, plan: &[PlannedScene]) -> anyhow::Result<Measurements> {
+    let progress = ProgressBar::new(plan.iter().map(PlannedScene::steps).sum());
+    let mut remarks: Vec<_> = software_remark(gpu).into_iter().collect();
+    let mut scenes = Vec::new();
+    for planned in plan {
+        match planned.measure(gpu, &progress) {
+            Ok(measured) => scenes.push(measured),
             Err(error) => {
-                remarks.push(format!("{}, {}: {error:#}.", bout.spec, bout.method.name));
+                remarks.push(format!("{}, {}: {error:#}.", planned.spec, planned.method.name));
             }
         }
     }
     drop(progress);
-    anyhow::ensure!(!outcomes.is_empty(), "nothing could be measured: {}", remarks.join(" "));
+    anyhow::ensure!(!scenes.is_empty(), "nothing could be measured: {}", remarks.join(" "));
     Ok(Measurements {
-        provenance: Provenance::here(SCHEMA),
-        adapter: Adapter::from(gpu.report()),
-        size: bouts.first().map_or((0, 0), |bout| bout.size),
-        remarks,
-        outcomes,
+        heading: Heading::new(SCHEMA, Some(gpu), remarks),
+        size: plan.first().map_or((0, 0), |planned| planned.size),
+        scenes,
     })
 }
 
-/// Columns of the table.
-const HEADINGS: [&str; 9] = [
-    "scene",
-    "method",
-    "shaders",
-    "frame ms",
-    "times",
-    "quartiles",
-    "device KiB",
-    "code",
-    "other pixels",
-];
-
 /// A row for each form of each scene and method.
-fn rows(outcomes: &[Outcome]) -> Vec<Vec<String>> {
-    let of_outcome = |outcome: &Outcome| {
+fn table(scenes: &[SceneForms]) -> Table {
+    let columns = [
+        Column::text("scene"),
+        Column::text("method"),
+        Column::text("shaders"),
+        Column::number("frame").of("ms"),
+        Column::number("times"),
+        Column::number("quartiles"),
+        Column::number("device").of("KiB"),
+        Column::number("code"),
+        Column::number("other pixels"),
+    ];
+    let rows_of = |scene: &SceneForms| {
         let row = |row: &run::Row| {
-            let mut cells = vec![outcome.scene.clone(), outcome.method.clone(), row.form.clone()];
+            let mut cells = vec![scene.scene.clone(), scene.method.clone(), row.form.clone()];
             match &row.result {
                 Ok(measured) => cells.extend(numbers(measured)),
                 Err(reason) => cells.push(reason.clone()),
             }
             cells
         };
-        outcome.rows.iter().map(row).collect::<Vec<_>>()
+        scene.rows.iter().map(row).collect::<Vec<_>>()
     };
-    outcomes.iter().flat_map(of_outcome).collect()
+    let rows = scenes.iter().flat_map(rows_of).collect();
+    let title = "What each part of the specialisation saves".to_owned();
+    Table { title, columns: columns.into(), rows }
 }
 
 fn numbers(measured: &Measured) -> [String; 6] {
@@ -147,43 +146,41 @@ mod tests {
 
     use super::run::FORMS;
     use super::*;
+    use crate::testing::{assert_stands_alone, read_back};
 
-    fn quick() -> Vec<Bout> {
+    fn quick() -> Vec<PlannedScene> {
         let (extent, adapter) = (Extent::Quick, AdapterChoice::Environment);
-        bouts(&Order { extent, size: None, adapter, out: PathBuf::new() }, &[])
+        plan(&Options { extent, size: None, adapter, out: PathBuf::new() }, &[])
     }
 
     /// No form takes less memory than the specialised one; all of them together take more, and other code:
-    /// more, but where the certified tree's looks at quartics are left out.
+    /// more, but where the certified tree's polynomial tests are left out.
     #[test]
     fn a_quick_run_fills_every_row() {
         let Some(gpu) = Gpu::for_test() else { return };
         let measurements = measure(&gpu, &quick()).expect("measured");
-        assert_eq!(measurements.outcomes.len(), HEADLINERS.len());
-        for outcome in &measurements.outcomes {
+        assert_eq!(measurements.scenes.len(), HEADLINERS.len());
+        for scene in &measurements.scenes {
             let measured: Vec<_> =
-                outcome.rows.iter().map(|row| row.result.as_ref().expect("measured")).collect();
+                scene.rows.iter().map(|row| row.result.as_ref().expect("measured")).collect();
             assert_eq!(measured.len(), FORMS.len());
             let (least, most) = (measured[0], measured[FORMS.len() - 1]);
             assert_eq!((least.times.median, least.differing_pixels), (1.0, 0));
             for form in &measured[1..] {
-                assert!(form.device_bytes >= least.device_bytes, "{outcome:?}");
-                assert!(form.device_bytes <= most.device_bytes, "{outcome:?}");
+                assert!(form.device_bytes >= least.device_bytes, "{scene:?}");
+                assert!(form.device_bytes <= most.device_bytes, "{scene:?}");
                 assert_eq!(form.frame_ms.samples.len(), 2);
             }
             assert!(most.code != least.code && most.device_bytes > least.device_bytes);
         }
-        let text = serde_json::to_string(&measurements).expect("JSON");
-        let back: Measurements = serde_json::from_str(&text).expect("as written");
+        let back = read_back(&measurements);
         assert_eq!(
-            (back.provenance.schema.as_str(), back.outcomes.len()),
+            (back.heading.provenance.schema.as_str(), back.scenes.len()),
             (SCHEMA, HEADLINERS.len())
         );
         let page = page::page(&measurements);
-        for forbidden in ["<script", "http", "url(", "{{", "/tmp"] {
-            assert!(!page.contains(forbidden), "{forbidden}");
-        }
-        assert!(page.contains("a radius each") && page.ends_with("</html>\n"));
+        assert_stands_alone(&page, &["/tmp"]);
+        assert!(page.contains("a radius each"));
     }
 
     /// What a scene needs cannot be saved, and is said to be needed.
@@ -205,8 +202,8 @@ mod tests {
     #[test]
     fn a_scene_that_fails_is_named() {
         let Some(gpu) = Gpu::for_test() else { return };
-        let bout = Bout { spec: "nosuch".to_owned(), ..quick().remove(0) };
-        let error = measure(&gpu, &[bout]).expect_err("no such scene").to_string();
+        let planned = PlannedScene { spec: "nosuch".to_owned(), ..quick().remove(0) };
+        let error = measure(&gpu, &[planned]).expect_err("no such scene").to_string();
         assert!(error.contains("nosuch"), "{error}");
     }
 }

@@ -1,26 +1,26 @@
 //! `auto.html`: the table for a person to read.
 
-use super::study::{Drawn, Outcome};
-use super::{HEADINGS, Measurements, rows};
-use crate::html::{escape, section, table};
-use crate::page::{self, remark_paragraphs, run_facts};
+use super::run::{Drawn, Measured};
+use super::{Measurements, table};
+use crate::html::{escape, section};
+use crate::page;
+use crate::tables::scene_result::SceneResult;
 use harness::numbers::{decimal, grouped, small};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter));
     let parts = [
-        ("facts", facts),
-        ("remarks", remark_paragraphs(&measurements.remarks)),
-        ("table", table("Chosen, and best", &HEADINGS, &[0, 2, 4], &rows(&measurements.scenes))),
+        ("facts", measurements.heading.facts()),
+        ("remarks", measurements.heading.remark_paragraphs()),
+        ("table", table(&measurements.scenes).html()),
         ("all", measurements.scenes.iter().map(candidates).collect()),
     ];
     page::page("No more than a scene needs", include_str!("page.html"), &parts)
 }
 
 /// Every candidate on a scene.
-fn candidates(outcome: &Outcome) -> String {
-    let Ok(measured) = &outcome.result else { return String::new() };
+fn candidates(scene: &SceneResult<Measured>) -> String {
+    let Ok(measured) = &scene.result else { return String::new() };
     let row = |(name, drawn): &(String, Result<Drawn, String>)| {
         let cells = match drawn {
             Ok(Drawn { errors, frame_ms }) => format!(
@@ -37,7 +37,7 @@ fn candidates(outcome: &Outcome) -> String {
     let rows: String = measured.all.iter().map(row).collect();
     let headings = "<th class=\"text\">Candidate</th><th>ms</th><th>99 % within</th><th>Wrong \
                     rays</th>";
-    let (width, height) = outcome.size;
-    let title = format!("{}, {} balls, {width} × {height}", outcome.scene, grouped(measured.balls));
+    let (width, height) = scene.size;
+    let title = format!("{}, {} balls, {width} × {height}", scene.scene, grouped(measured.balls));
     section(&title, headings, &rows)
 }

@@ -6,8 +6,8 @@ use super::paper::{COUNTED, Counts, PRINTED, Printed, Rate};
 use super::paper_scene::PaperScene;
 use super::plan::{scaled_molecule, support_factors};
 use super::run::Run;
-use super::settings::Setting;
-use crate::tables::Extent;
+use super::tree_variant::TreeVariant;
+use crate::extent::Extent;
 use harness::numbers::decimal;
 
 /// A factor beyond which a difference to the paper is explained.
@@ -30,7 +30,8 @@ pub struct Row {
     /// The scene, as it was loaded.
     pub scene: String,
     /// The structure.
-    pub setting: String,
+    #[serde(rename = "setting")]
+    pub variant: String,
     /// Frames a second in the paper: the mean.
     pub paper_fps: f64,
     /// Least and most of them, where printed.
@@ -51,7 +52,8 @@ pub struct WorkRow {
     /// The scene, as it was loaded.
     pub scene: String,
     /// The structure.
-    pub setting: String,
+    #[serde(rename = "setting")]
+    pub variant: String,
     /// The paper's traversals, intersection tests and balls.
     pub paper: [f64; 3],
     /// Ours.
@@ -59,9 +61,6 @@ pub struct WorkRow {
     /// Why ours differ, where their ratio to the first row does notably.
     pub why: Option<String>,
 }
-
-/// Heading of [`Density`].
-pub const DENSITY_TITLE: &str = "Table 1, the molecule sparser and denser (not in the paper)";
 
 /// Not in the paper: what table 1's gain on the molecule depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -89,9 +88,9 @@ pub struct DensityRow {
     pub nodes: Option<f64>,
 }
 
-/// The run of a setting on a scene.
-pub fn find<'a>(runs: &'a [Run], scene: &str, setting: &str) -> Option<&'a Run> {
-    runs.iter().find(|run| run.scene == scene && run.setting == setting)
+/// The run of a variant on a scene.
+pub fn find<'a>(runs: &'a [Run], scene: &str, variant: &str) -> Option<&'a Run> {
+    runs.iter().find(|run| run.scene == scene && run.variant == variant)
 }
 
 /// All tables of frame rates.
@@ -107,17 +106,17 @@ pub fn tables(extent: Extent, runs: &[Run]) -> Vec<Table> {
 fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
     let scene = rate.scene.spec(extent);
     let first = table.rows.iter().find(|other| other.scene == rate.scene);
-    let first = first.filter(|first| first.setting != rate.setting);
+    let first = first.filter(|first| first.variant != rate.variant);
     let paper_ratio = first.map(|first| rate.fps / first.fps);
     let pair = first.and_then(|first| {
-        let slow = find(runs, scene, &first.setting.name())?;
-        Some((slow, find(runs, scene, &rate.setting.name())?))
+        let slow = find(runs, scene, &first.variant.name())?;
+        Some((slow, find(runs, scene, &rate.variant.name())?))
     });
     let ratio = pair.map(|(slow, fast)| slow.mean_ms() / fast.mean_ms());
     let why = pair.zip(paper_ratio).and_then(|((slow, fast), paper)| explain(slow, fast, paper));
     Row {
         scene: scene.to_owned(),
-        setting: rate.setting.name(),
+        variant: rate.variant.name(),
         paper_fps: rate.fps,
         paper_fps_extremes: rate.extremes,
         paper_build_ms: rate.build_ms,
@@ -131,13 +130,13 @@ fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
 pub fn work_table(extent: Extent, runs: &[Run]) -> Vec<WorkRow> {
     let scene = PaperScene::Tornado4k.spec(extent);
     let counted = |row: &Counts| {
-        let work = find(runs, scene, &row.setting.name())?.work;
+        let work = find(runs, scene, &row.variant.name())?.work;
         Some([work.nodes_per_ray, work.leaf_tests_per_ray, work.balls_per_ray])
     };
     let printed = |row: &Counts| [row.nodes, row.leaf_tests, row.balls];
     let row = |row: &Counts| WorkRow {
         scene: scene.to_owned(),
-        setting: row.setting.name(),
+        variant: row.variant.name(),
         paper: printed(row),
         measured: counted(row),
         why: counted(&COUNTED[0]).zip(counted(row)).and_then(|(first, here)| {
@@ -151,8 +150,8 @@ pub fn work_table(extent: Extent, runs: &[Run]) -> Vec<WorkRow> {
 pub fn density(extent: Extent, runs: &[Run]) -> Density {
     let row = |&factor: &f32| {
         let scene = scaled_molecule(factor);
-        let run = |setting: Setting| find(runs, &scene, &setting.name());
-        let pair = run(Setting::Modified).zip(run(Setting::Fitted));
+        let run = |variant: TreeVariant| find(runs, &scene, &variant.name());
+        let pair = run(TreeVariant::Modified).zip(run(TreeVariant::Fitted));
         let ratio = |of: fn(&Run) -> f64| pair.map(|(slow, fast)| of(slow) / of(fast));
         DensityRow {
             supports: factor,
@@ -163,12 +162,12 @@ pub fn density(extent: Extent, runs: &[Run]) -> Density {
         }
     };
     let rows: Vec<_> = support_factors(extent).iter().map(row).collect();
-    let rate = |setting| {
+    let rate = |variant| {
         let rows = || PRINTED.iter().flat_map(|table| table.rows);
-        let row = rows().find(|row| row.scene == PaperScene::Molecule && row.setting == setting);
+        let row = rows().find(|row| row.scene == PaperScene::Molecule && row.variant == variant);
         row.map_or(f64::NAN, |row| row.fps)
     };
-    let paper_ratio = rate(Setting::Fitted) / rate(Setting::Modified);
+    let paper_ratio = rate(TreeVariant::Fitted) / rate(TreeVariant::Modified);
     let why = rows.first().zip(rows.last()).and_then(|ends| explain_density(ends, paper_ratio));
     Density { paper_ratio, rows, why }
 }
@@ -255,8 +254,8 @@ fn explain(slow: &Run, fast: &Run, paper: f64) -> Option<String> {
     } else if time > paper {
         let waiting = pair(|run| 100.0 * resumed(run));
         format!(
-            "More gained than work explains, from {counted}: the share of the passes that take \
-             rays up again goes from {waiting} %."
+            "More gained than work explains, from {counted}: the share of the passes that resume \
+             rays goes from {waiting} %."
         )
     } else if work > time * NOTABLE {
         let nodes = pair(|run| run.work.nodes_per_ray);
@@ -286,11 +285,11 @@ mod tests {
     use crate::tables::gourmel::run::TreeSize;
     use harness::record::{Samples, WorkPerRay};
 
-    fn run(setting: &str, frame_ms: f64, evaluations_per_ray: f64) -> Run {
+    fn run(variant: &str, frame_ms: f64, evaluations_per_ray: f64) -> Run {
         Run {
             scene: "pool-10k".to_owned(),
             balls: 10_000,
-            setting: setting.to_owned(),
+            variant: variant.to_owned(),
             build_ms: Samples::new(vec![1.0]),
             frame_ms: Samples::new(vec![0.5 * frame_ms, 1.5 * frame_ms]),
             passes: BTreeMap::from([("trace".to_owned(), 3.0), ("resume".to_owned(), 1.0)]),

@@ -12,10 +12,13 @@ use serde::{Deserialize, Serialize};
 
 use self::compare::{CostRow, GainRow};
 use self::run::Run;
-use super::heading::{self, Heading};
-use super::run::Shoot;
-use crate::console;
-use crate::tables::{Extent, Order};
+use super::path_heading::{PathHeading, camera_path};
+use super::run::CameraPath;
+use crate::console::open_adapter;
+use crate::extent::Extent;
+use crate::table::{Column, Table};
+use crate::tables::Options;
+use crate::tables::report::{Report, publish};
 use harness::numbers::decimal;
 
 /// Name and version of the format of `gourmel-light.json`.
@@ -26,7 +29,7 @@ pub const SCHEMA: &str = "metaball-tables-gourmel-light/1";
 pub struct Measurements {
     /// Its format is [`SCHEMA`].
     #[serde(flatten)]
-    pub heading: Heading,
+    pub heading: PathHeading,
     /// Table 2.
     pub costs: Vec<CostRow>,
     /// Table 1.
@@ -35,35 +38,21 @@ pub struct Measurements {
     pub runs: Vec<Run>,
 }
 
-/// Measures, prints the tables, and writes them.
+/// Measures, prints the tables, and writes `gourmel-light.html` and `gourmel-light.json`.
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
-pub fn tables(order: &Order) -> anyhow::Result<()> {
-    let gpu = Gpu::new(&order.adapter)?;
-    console::note(&gpu.report().to_string());
-    let measurements = measure(&gpu, order.extent, heading::shoot(order, &gpu, (160, 120)));
-    console::line(&format!("\n{COSTS_TITLE}"));
-    console::line(&console::table(&COST_HEADINGS, &cost_rows(&measurements.costs)));
-    for row in &measurements.costs {
-        if let Some(why) = &row.why {
-            console::line(&format!("  {}, {}: {why}", row.scene, row.effect));
-        }
-    }
-    console::line(&format!("\n{GAINS_TITLE}"));
-    console::line(&console::table(&GAIN_HEADINGS, &gain_rows(&measurements.gains)));
-    for remark in &measurements.heading.remarks {
-        console::line(&format!("  {remark}"));
-    }
-    let page = page::page(&measurements);
-    heading::write(order, "gourmel-light", &measurements, &page, measurements.runs.len())
+pub fn tables(options: &Options) -> anyhow::Result<()> {
+    let gpu = open_adapter(&options.adapter)?;
+    let path = camera_path(options, &gpu, (160, 120));
+    publish(&measure(&gpu, options.extent, path), &options.out)
 }
 
-fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> Measurements {
-    let mut heading = Heading::new(SCHEMA, gpu, extent, shoot);
+fn measure(gpu: &Gpu, extent: Extent, path: CameraPath) -> Measurements {
+    let mut heading = PathHeading::new(SCHEMA, gpu, extent, path);
     let scenes = compare::measurements(extent);
-    let runs = heading.measure(scenes, run::steps(shoot), |spec, wanted, progress| {
-        run::measure(gpu, spec, wanted, shoot, progress)
+    let runs = heading.measure(scenes, run::steps(path), |spec, wanted, progress| {
+        run::measure(gpu, spec, wanted, path, progress)
     });
     Measurements {
         heading,
@@ -73,26 +62,54 @@ fn measure(gpu: &Gpu, extent: Extent, shoot: Shoot) -> Measurements {
     }
 }
 
-/// Headings of the tables, for the terminal and the page.
-const COSTS_TITLE: &str = "Table 2: times as long as a ray cast";
-const COST_HEADINGS: [&str; 5] = ["scene", "effects", "paper", "fbvh", "fbvh-certified"];
-const GAINS_TITLE: &str = "Table 1: times as fast as the modified BVH, with each scene's effects";
-const GAIN_HEADINGS: [&str; 5] = ["scene", "effects", "paper", "fbvh", "fbvh-certified"];
+impl Report for Measurements {
+    const NAME: &'static str = "gourmel-light";
 
-fn cost_rows(rows: &[CostRow]) -> Vec<Vec<String>> {
-    let row = |row: &CostRow| {
-        let ratios = [Some(row.paper), row.fitted, row.certified];
-        cells([&row.scene, &row.effect], ratios)
-    };
-    rows.iter().map(row).collect()
+    fn text(&self) -> String {
+        let (costs, gains) = (cost_table(&self.costs), gain_table(&self.gains));
+        let mut lines = vec![format!("\n{}", costs.title), costs.text()];
+        let why =
+            |row: &CostRow| Some(format!("  {}, {}: {}", row.scene, row.effect, row.why.as_ref()?));
+        lines.extend(self.costs.iter().filter_map(why));
+        lines.push(format!("\n{}", gains.title));
+        lines.push(self.heading.heading.text_with_remarks(&gains));
+        lines.join("\n")
+    }
+
+    fn page(&self) -> String {
+        page::page(self)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
 }
 
-fn gain_rows(rows: &[GainRow]) -> Vec<Vec<String>> {
-    let row = |row: &GainRow| {
-        let ratios = [Some(row.paper), row.fitted, row.certified];
-        cells([&row.scene, &row.effect], ratios)
+fn cost_table(rows: &[CostRow]) -> Table {
+    let row = |row: &CostRow| {
+        cells([&row.scene, &row.effect], [Some(row.paper), row.fitted, row.certified])
     };
-    rows.iter().map(row).collect()
+    table("Table 2: times as long as a ray cast", rows.iter().map(row).collect())
+}
+
+fn gain_table(rows: &[GainRow]) -> Table {
+    let row = |row: &GainRow| {
+        cells([&row.scene, &row.effect], [Some(row.paper), row.fitted, row.certified])
+    };
+    let title = "Table 1: times as fast as the modified BVH, with each scene's effects";
+    table(title, rows.iter().map(row).collect())
+}
+
+/// A table of ratios: the paper's, and ours by tree.
+fn table(title: &str, rows: Vec<Vec<String>>) -> Table {
+    let columns = [
+        Column::text("scene"),
+        Column::text("effects"),
+        Column::number("paper"),
+        Column::number("fbvh"),
+        Column::number("fbvh-certified"),
+    ];
+    Table { title: title.to_owned(), columns: columns.into(), rows }
 }
 
 fn cells(texts: [&String; 2], ratios: [Option<f64>; 3]) -> Vec<String> {
@@ -103,34 +120,32 @@ fn cells(texts: [&String; 2], ratios: [Option<f64>; 3]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::{assert_stands_alone, read_back};
 
     #[test]
     fn every_cell_of_every_table_is_measured() {
         let Some(gpu) = Gpu::for_test() else { return };
-        let shoot = Shoot { size: (24, 16), cameras: 2 };
-        let measurements = measure(&gpu, Extent::Quick, shoot);
+        let path = CameraPath { size: (24, 16), cameras: 2 };
+        let measurements = measure(&gpu, Extent::Quick, path);
         let costs = &measurements.costs;
         assert!(costs.iter().all(|row| row.fitted.is_some() && row.certified.is_some()));
         let gains = &measurements.gains;
         assert!(gains.iter().all(|row| row.fitted.is_some() && row.certified.is_some()));
         assert!(measurements.runs.iter().all(|run| run.frame_ms.samples.len() == 2));
         // Shadow and occlusion rays are sent where there are such effects, and nowhere else.
-        let sends_them = |run: &Run| run.passes.contains_key("any hits");
+        let has_shadow_rays = |run: &Run| run.passes.contains_key("any hits");
         for run in &measurements.runs {
             let wanted = run.effect.contains("shadow") || run.effect.contains("occlusion");
-            assert_eq!(sends_them(run), wanted, "{run:?}");
+            assert_eq!(has_shadow_rays(run), wanted, "{run:?}");
         }
 
-        let text = serde_json::to_string(&measurements).expect("JSON");
-        let back: Measurements = serde_json::from_str(&text).expect("as written");
+        let back = read_back(&measurements);
         assert_eq!(
-            (back.heading.provenance.schema.as_str(), back.runs.len()),
+            (back.heading.heading.provenance.schema.as_str(), back.runs.len()),
             (SCHEMA, measurements.runs.len())
         );
         let page = page::page(&measurements);
-        for forbidden in ["<script", "http", "url(", "{{"] {
-            assert!(!page.contains(forbidden), "{forbidden}");
-        }
-        assert!(page.contains("Table 2") && page.ends_with("</html>\n"));
+        assert_stands_alone(&page, &[]);
+        assert!(page.contains("Table 2"));
     }
 }

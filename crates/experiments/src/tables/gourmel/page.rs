@@ -1,10 +1,10 @@
 //! `gourmel.html`: the tables for a person to read.
 
-use super::compare::{DENSITY_TITLE, Density, Row, Table, WorkRow, find};
+use super::compare::{Density, Row, Table, WorkRow, find};
 use super::run::Run;
-use super::{DENSITY_HEADINGS, Line, Measurements, Point, density_rows};
+use super::{Line, Measurements, Point, density_table};
 use crate::html::{escape, section};
-use crate::page::{self, remark_paragraphs};
+use crate::page;
 use crate::plot::line_plot;
 use harness::numbers::{decimal, grouped};
 
@@ -15,7 +15,7 @@ pub(super) fn page(measurements: &Measurements) -> String {
     let series: String = measurements.series.iter().map(|line| plot(line, measurements)).collect();
     let parts = [
         ("facts", measurements.heading.facts()),
-        ("remarks", remark_paragraphs(&measurements.heading.remarks)),
+        ("remarks", measurements.heading.heading.remark_paragraphs()),
         (
             "tables",
             tables + &work(&measurements.work_table) + &density(&measurements.density) + &series,
@@ -54,7 +54,7 @@ fn run_cells(run: Option<&Run>) -> String {
 
 fn rates(table: &Table, measurements: &Measurements) -> String {
     let row = |row: &Row| {
-        let run = find(&measurements.runs, &row.scene, &row.setting);
+        let run = find(&measurements.runs, &row.scene, &row.variant);
         let balls = run.map_or_else(String::new, |run| grouped(run.balls));
         let class = if row.paper_ratio.is_none() { " class=\"first\"" } else { "" };
         let ratio = row.paper_ratio.map_or_else(String::new, |paper| {
@@ -70,7 +70,7 @@ fn rates(table: &Table, measurements: &Measurements) -> String {
              <td>{ratio}</td><td>{paper_build}</td><td>{}{extremes}</td>\
              <td class=\"reason\">{}</td></tr>\n",
             escape(&row.scene),
-            escape(&row.setting),
+            escape(&row.variant),
             run_cells(run),
             row.paper_fps,
             escape(row.why.as_deref().unwrap_or(""))
@@ -95,7 +95,7 @@ fn work(table: &[WorkRow]) -> String {
             "<tr><td class=\"text\">{}</td><td class=\"text\">{}</td>{}<td class=\"reason\">{}</td>\
              </tr>\n",
             escape(&row.scene),
-            escape(&row.setting),
+            escape(&row.variant),
             cells.collect::<String>(),
             escape(row.why.as_deref().unwrap_or(""))
         )
@@ -108,19 +108,13 @@ fn work(table: &[WorkRow]) -> String {
 }
 
 fn density(density: &Density) -> String {
-    let headings: String = DENSITY_HEADINGS.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let row = |cells: Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("<td>{}</td>", escape(cell))).collect();
-        format!("<tr>{cells}</tr>\n")
-    };
-    let rows: String = density_rows(density).into_iter().map(row).collect();
     let why = density.why.as_deref().map(escape).unwrap_or_default();
-    section(DENSITY_TITLE, &headings, &rows) + &format!("<p>{why}</p>\n")
+    density_table(density).html() + &format!("<p>{why}</p>\n")
 }
 
 fn plot(line: &Line, measurements: &Measurements) -> String {
     let row = |point: &Point| {
-        let run = find(&measurements.runs, &point.scene, &point.setting);
+        let run = find(&measurements.runs, &point.scene, &point.variant);
         let (x, scene) = (decimal(point.x), escape(&point.scene));
         format!("<tr><td>{x}</td><td class=\"text\">{scene}</td>{}</tr>\n", run_cells(run))
     };

@@ -1,7 +1,7 @@
 //! What Gourmel et al. 2010 print in section 6: frames a second at 640 × 480 on a GeForce GTX 280.
 
 use super::paper_scene::PaperScene;
-use super::settings::Setting;
+use super::tree_variant::TreeVariant;
 
 /// A table of frame rates. The first row of each scene is what its other rows are compared with.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub struct Rate {
     /// The scene.
     pub scene: PaperScene,
     /// The structure.
-    pub setting: Setting,
+    pub variant: TreeVariant,
     /// Milliseconds to build it, where printed.
     pub build_ms: Option<f64>,
     /// Frames a second: least and most, where printed.
@@ -33,7 +33,7 @@ pub struct Rate {
 #[derive(Debug)]
 pub struct Counts {
     /// The structure.
-    pub setting: Setting,
+    pub variant: TreeVariant,
     /// Node traversals a ray.
     pub nodes: f64,
     /// Intersection tests a ray.
@@ -43,24 +43,24 @@ pub struct Counts {
 }
 
 use PaperScene::{Molecule, Pool, Scattered30k, Scattered100k, Tornado4k, Tornado128k};
-use Setting::{Cut, Discarding, Fitted, Linear, Modified, Plain, Tighter};
+use TreeVariant::{Cut, Discarding, Fitted, Linear, Modified, Plain, Tighter};
 
 const fn full(
     scene: PaperScene,
-    setting: Setting,
+    variant: TreeVariant,
     build_ms: f64,
     extremes: (f64, f64),
     fps: f64,
 ) -> Rate {
-    Rate { scene, setting, build_ms: Some(build_ms), extremes: Some(extremes), fps }
+    Rate { scene, variant, build_ms: Some(build_ms), extremes: Some(extremes), fps }
 }
 
-const fn built(scene: PaperScene, setting: Setting, build_ms: f64, fps: f64) -> Rate {
-    Rate { scene, setting, build_ms: Some(build_ms), extremes: None, fps }
+const fn built(scene: PaperScene, variant: TreeVariant, build_ms: f64, fps: f64) -> Rate {
+    Rate { scene, variant, build_ms: Some(build_ms), extremes: None, fps }
 }
 
-const fn rate(scene: PaperScene, setting: Setting, fps: f64) -> Rate {
-    Rate { scene, setting, build_ms: None, extremes: None, fps }
+const fn rate(scene: PaperScene, variant: TreeVariant, fps: f64) -> Rate {
+    Rate { scene, variant, build_ms: None, extremes: None, fps }
 }
 
 /// Tables 1, 4 and 5, and the two heuristics.
@@ -116,8 +116,8 @@ pub const PRINTED: &[Printed] = &[
 
 /// Table 3: means a ray on the tornado. The paper does not say which; here it is the small one.
 pub const COUNTED: [Counts; 2] = [
-    Counts { setting: Modified, nodes: 9.3, leaf_tests: 1.2, balls: 83.5 },
-    Counts { setting: Fitted, nodes: 6.2, leaf_tests: 0.5, balls: 35.1 },
+    Counts { variant: Modified, nodes: 9.3, leaf_tests: 1.2, balls: 83.5 },
+    Counts { variant: Fitted, nodes: 6.2, leaf_tests: 0.5, balls: 35.1 },
 ];
 
 #[cfg(test)]
@@ -128,9 +128,9 @@ mod tests {
     /// right is table 1's average.
     #[test]
     fn tables_agree_with_each_other() {
-        let fps = |name, scene, setting| {
+        let fps = |name, scene, variant| {
             let table = PRINTED.iter().find(|table| table.name == name).expect("printed");
-            let row = table.rows.iter().find(|row| row.scene == scene && row.setting == setting);
+            let row = table.rows.iter().find(|row| row.scene == scene && row.variant == variant);
             row.expect("printed").fps
         };
         for scene in [Molecule, Pool] {

@@ -1,6 +1,6 @@
 //! The scenes of Gourmel et al. 2010, and ours that stand for them.
 
-use crate::tables::Extent;
+use crate::extent::Extent;
 
 /// A scene of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

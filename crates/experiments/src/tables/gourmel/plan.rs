@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::paper::{COUNTED, PRINTED};
 use super::paper_scene::PaperScene;
-use super::settings::Setting;
-use crate::tables::Extent;
+use super::tree_variant::TreeVariant;
+use crate::extent::Extent;
 
 /// A line in a plot: frame time over a quantity.
 #[derive(Debug, Clone)]
@@ -16,8 +16,8 @@ pub struct Series {
     pub axis: &'static str,
     /// Which quantity of a run is on the horizontal axis.
     pub quantity: Quantity,
-    /// Scene and setting of each point.
-    pub points: Vec<(String, Setting)>,
+    /// Scene and variant of each point.
+    pub points: Vec<(String, TreeVariant)>,
 }
 
 /// What a plot's horizontal axis counts.
@@ -54,23 +54,23 @@ pub fn series(extent: Extent) -> Vec<Series> {
         }
         Extent::Quick => (&[100, 200], &[2, 4], 100, &[5, 10]),
     };
-    let over_balls = |title, setting| Series {
+    let over_balls = |title, variant| Series {
         title,
         axis: "balls",
         quantity: Quantity::Balls,
-        points: counts.iter().map(|count| (format!("tornado:{count}"), setting)).collect(),
+        points: counts.iter().map(|count| (format!("tornado:{count}"), variant)).collect(),
     };
     let tornado = PaperScene::Tornado4k.spec(extent);
     vec![
-        over_balls("Number of balls, modified BVH", Setting::Modified),
-        over_balls("Number of balls, Fitted BVH", Setting::Fitted),
+        over_balls("Number of balls, modified BVH", TreeVariant::Modified),
+        over_balls("Number of balls, Fitted BVH", TreeVariant::Fitted),
         Series {
             title: "Depth of the tree",
             axis: "levels",
             quantity: Quantity::Depth,
             points: levels
                 .iter()
-                .map(|&most| (tornado.to_owned(), Setting::Levels(most)))
+                .map(|&most| (tornado.to_owned(), TreeVariant::Levels(most)))
                 .collect(),
         },
         Series {
@@ -79,7 +79,7 @@ pub fn series(extent: Extent) -> Vec<Series> {
             quantity: Quantity::Split,
             points: densities
                 .iter()
-                .map(|density| (format!("tornado:{dense}:{density}"), Setting::Fitted))
+                .map(|density| (format!("tornado:{dense}:{density}"), TreeVariant::Fitted))
                 .collect(),
         },
     ]
@@ -93,20 +93,20 @@ pub fn support_factors(extent: Extent) -> &'static [f32] {
     }
 }
 
-/// Everything that the tables and plots need, each once: settings by scene.
-pub fn measurements(extent: Extent) -> BTreeMap<String, BTreeSet<Setting>> {
+/// Everything that the tables and plots need, each once: variants by scene.
+pub fn measurements(extent: Extent) -> BTreeMap<String, BTreeSet<TreeVariant>> {
     let rates = PRINTED.iter().flat_map(|table| table.rows);
-    let rates = rates.map(|row| (row.scene.spec(extent).to_owned(), row.setting));
-    let counted = COUNTED.iter().map(|row| row.setting);
-    let counted = counted.map(|setting| (PaperScene::Tornado4k.spec(extent).to_owned(), setting));
+    let rates = rates.map(|row| (row.scene.spec(extent).to_owned(), row.variant));
+    let counted = COUNTED.iter().map(|row| row.variant);
+    let counted = counted.map(|variant| (PaperScene::Tornado4k.spec(extent).to_owned(), variant));
     let points = series(extent).into_iter().flat_map(|series| series.points);
     let mut measurements = BTreeMap::<_, BTreeSet<_>>::new();
     let sizes = support_factors(extent).iter().map(|&factor| scaled_molecule(factor));
     let scaled = sizes.flat_map(|spec| {
-        [Setting::Modified, Setting::Fitted].map(|setting| (spec.clone(), setting))
+        [TreeVariant::Modified, TreeVariant::Fitted].map(|variant| (spec.clone(), variant))
     });
-    for (spec, setting) in rates.chain(counted).chain(points).chain(scaled) {
-        measurements.entry(spec).or_default().insert(setting);
+    for (spec, variant) in rates.chain(counted).chain(points).chain(scaled) {
+        measurements.entry(spec).or_default().insert(variant);
     }
     measurements
 }

@@ -12,7 +12,7 @@ use metaball_core::{Metaball, Scene};
 use serde::{Deserialize, Serialize};
 
 use super::plan::subject;
-use super::settings::Setting;
+use super::tree_variant::TreeVariant;
 use crate::console::ProgressBar;
 use harness::measure::{PreparedRenderer, count_work, milliseconds, time_all, views};
 use harness::record::{Samples, WorkPerRay};
@@ -24,8 +24,9 @@ pub struct Run {
     pub scene: String,
     /// Number of balls.
     pub balls: usize,
-    /// Name of the setting.
-    pub setting: String,
+    /// Name of the tree's variant.
+    #[serde(rename = "setting")]
+    pub variant: String,
     /// Host milliseconds for the tree.
     pub build_ms: Samples,
     /// Milliseconds of each frame, from the start of encoding to the fence, one a camera.
@@ -90,58 +91,58 @@ impl Run {
     }
 }
 
-/// Pictures to time.
+/// Pictures to time, along a scene's camera path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shoot {
+pub struct CameraPath {
     /// Pixels across and down.
     pub size: (u32, u32),
-    /// Cameras along the scene's path, one frame each.
+    /// Cameras along the path, one frame each.
     pub cameras: usize,
 }
 
-impl Shoot {
-    /// Steps of progress that [`measure`] makes for each setting.
+impl CameraPath {
+    /// Steps of progress that [`measure`] makes for each variant.
     pub fn steps(self) -> u64 {
         self.cameras as u64 + 2
     }
 }
 
-/// What is known of a setting before it is timed.
+/// What is known of a variant before it is timed.
 type Prepared = ((Samples, TreeSize), WorkPerRay);
 
 /// Trees built to time building.
 const BUILDS: usize = 3;
 
-/// Measures settings on a scene, frames in turn. A setting that fails has its reason in its place.
+/// Measures variants on a scene, frames in turn. One that fails has its reason instead of a run.
 ///
 /// # Errors
 /// When the scene does not load, or the pictures are too large for the adapter.
 pub fn measure(
     gpu: &Gpu,
     spec: &str,
-    settings: &[Setting],
-    shoot: Shoot,
+    variants: &[TreeVariant],
+    path: CameraPath,
     progress: &ProgressBar,
 ) -> anyhow::Result<Vec<anyhow::Result<Run>>> {
     let (loaded, factor) = subject(spec);
     let bench = load(loaded, &Overrides::default())?;
     let scene = &scaled(bench.scene, factor)?;
-    let views = views(&bench.camera, &bench.path, &scene.bounds(), shoot.size, shoot.cameras)?;
+    let views = views(&bench.camera, &bench.path, &scene.bounds(), path.size, path.cameras)?;
     let colors = scene.colors().is_some();
-    let targets = Targets::new(gpu, shoot.size.0, shoot.size.1, colors, false)?;
+    let targets = Targets::new(gpu, path.size.0, path.size.1, colors, false)?;
 
     let mut renderers = Vec::new();
     let mut outcomes = Vec::new();
-    for &setting in settings {
-        progress.stage(format!("{spec}: {}", setting.name()));
-        let outcome = build(scene, &setting.options()).and_then(|built| {
-            let drawn = renderer(setting, false);
+    for &variant in variants {
+        progress.stage(format!("{spec}: {}", variant.name()));
+        let outcome = build(scene, &variant.options()).and_then(|built| {
+            let drawn = renderer(variant, false);
             let prepared = PreparedRenderer::prepare(gpu, drawn, scene, &targets, &views[0])?;
-            let work = count_work(gpu, renderer(setting, true), scene, &views[0])?;
+            let work = count_work(gpu, renderer(variant, true), scene, &views[0])?;
             renderers.push(prepared);
             Ok((built, work))
         });
-        outcomes.push((setting, outcome));
+        outcomes.push((variant, outcome));
         progress.advance(2);
     }
 
@@ -149,14 +150,14 @@ pub fn measure(
     let advance = || progress.advance(1);
     let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, advance);
     let mut timings = timings.into_iter();
-    let run = |(setting, prepared): (Setting, anyhow::Result<Prepared>)| {
-        let about = || format!("{spec}, {}", setting.name());
+    let run = |(variant, prepared): (TreeVariant, anyhow::Result<Prepared>)| {
+        let about = || format!("{spec}, {}", variant.name());
         let ((build_ms, tree), work) = prepared.with_context(about)?;
         let timing = timings.next().context("a timing for each renderer")?.with_context(about)?;
         Ok(Run {
             scene: spec.to_owned(),
             balls: scene.len(),
-            setting: setting.name(),
+            variant: variant.name(),
             build_ms,
             frame_ms: timing.frame_ms,
             passes: timing.passes,
@@ -180,11 +181,11 @@ fn scaled(scene: Scene, factor: f32) -> anyhow::Result<Scene> {
     })
 }
 
-fn renderer(setting: Setting, counting: bool) -> Box<dyn IsoRenderer> {
-    Box::new(Renderer::new("fbvh", setting.options(), counting))
+fn renderer(variant: TreeVariant, counting: bool) -> Box<dyn IsoRenderer> {
+    Box::new(Renderer::new("fbvh", variant.options(), counting))
 }
 
-/// Times building, and tells how large the tree is.
+/// Times building, and measures how large the tree is.
 fn build(scene: &Scene, options: &Options) -> anyhow::Result<(Samples, TreeSize)> {
     let mut times = Vec::new();
     loop {

@@ -4,12 +4,14 @@ use serde::{Deserialize, Serialize};
 
 use super::paper::TABLE;
 use super::run::{Phases, Run};
+use harness::stats::exponent;
 
 /// Exponents e of time ~ Nᵉ, fitted to the logarithms by least squares.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Growth {
-    /// The setting, or `paper`.
-    pub setting: String,
+    /// The variant, or `paper`.
+    #[serde(rename = "setting")]
+    pub variant: String,
     /// Fewest and most particles of the fit.
     pub particles: (usize, usize),
     /// Of each phase; one that takes no time has 0.
@@ -23,47 +25,41 @@ impl Growth {
     }
 
     /// Fits the points; `None` of fewer than two numbers of particles.
-    fn fit(setting: &str, points: &[(usize, Phases)]) -> Option<Self> {
+    fn fit(variant: &str, points: &[(usize, Phases)]) -> Option<Self> {
         let counts = points.iter().map(|(count, _)| *count);
         let particles = (counts.clone().min()?, counts.max()?);
         if particles.0 == particles.1 {
             return None;
         }
-        let exponent = |of: fn(&Phases) -> f64| {
+        let fit = |of: fn(&Phases) -> f64| {
             slope(points.iter().map(|(count, phases)| (*count as f64, of(phases))))
         };
         let exponents = Phases {
-            total: exponent(|phases| phases.total),
-            sort: exponent(|phases| phases.sort),
-            depth: exponent(|phases| phases.depth),
-            gather: exponent(|phases| phases.gather),
-            cast: exponent(|phases| phases.cast),
+            total: fit(|phases| phases.total),
+            sort: fit(|phases| phases.sort),
+            depth: fit(|phases| phases.depth),
+            gather: fit(|phases| phases.gather),
+            cast: fit(|phases| phases.cast),
         };
-        Some(Self { setting: setting.to_owned(), particles, exponents })
+        Some(Self { variant: variant.to_owned(), particles, exponents })
     }
 }
 
-/// The paper's own numbers, over the particles that were measured here, and each setting's.
-pub fn growth(settings: &[&str], runs: &[Run]) -> Vec<Growth> {
-    let of = |setting: &str| -> Vec<(usize, Phases)> {
-        let runs = runs.iter().filter(|run| run.setting == setting);
+/// The paper's own numbers, over the particles that were measured here, and each variant's.
+pub fn growth(variants: &[&str], runs: &[Run]) -> Vec<Growth> {
+    let of = |variant: &str| -> Vec<(usize, Phases)> {
+        let runs = runs.iter().filter(|run| run.variant == variant);
         runs.map(|run| (run.balls, run.phases)).collect()
     };
     let paper: Vec<_> = TABLE.iter().map(|row| (row.particles, row.phases)).collect();
-    let ours = settings.iter().filter_map(|setting| Growth::fit(setting, &of(setting)));
+    let ours = variants.iter().filter_map(|variant| Growth::fit(variant, &of(variant)));
     Growth::fit("paper", &paper).into_iter().chain(ours).collect()
 }
 
-/// The slope of the line through the points' logarithms; points without time are left out, and 0 is the
-/// slope of fewer than two.
+/// The exponent over the points that take time; 0 of fewer than two.
 fn slope(points: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let logs: Vec<_> = points.filter(|(_, y)| *y > 0.0).map(|(x, y)| (x.ln(), y.ln())).collect();
-    let count = logs.len().max(1) as f64;
-    let mean_x = logs.iter().map(|(x, _)| x).sum::<f64>() / count;
-    let mean_y = logs.iter().map(|(_, y)| y).sum::<f64>() / count;
-    let spread: f64 = logs.iter().map(|(x, _)| (x - mean_x) * (x - mean_x)).sum();
-    let together: f64 = logs.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
-    if spread > 0.0 { together / spread } else { 0.0 }
+    let points: Vec<_> = points.filter(|(_, time)| *time > 0.0).collect();
+    exponent(&points).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -20,22 +20,22 @@ pub struct KernelRow {
     /// Bounds on kernel minus cubic along any chord, in parts of the ball's value at its midpoint.
     pub deviation: (f64, f64),
     /// The published cubic against the reference.
-    pub cubic: Outcome,
+    pub cubic: Picture,
     /// The exact polynomial against it.
-    pub exact: Outcome,
+    pub exact: Picture,
 }
 
-/// What became of a picture.
+/// A picture, compared; or why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Outcome {
+pub enum Picture {
     /// Drawn and compared.
     Compared(Accuracy),
     /// Not drawn, and why.
     Refused(String),
 }
 
-/// The paper's two kernels, and powers from the roof to one whose polynomial is of degree eight.
+/// The paper's two kernels, and powers from the linear one to one whose polynomial is of degree eight.
 pub fn kernels() -> Vec<Kernel> {
     let powers = (1..=4).filter_map(|exponent| Kernel::power(exponent).ok());
     [Kernel::Wyvill, Kernel::Perlin].into_iter().chain(powers).collect()
@@ -58,19 +58,19 @@ pub fn compare(
     Frame::begin(gpu, &targets, &view)?.finish()?;
     let rays = targets.read_rays(gpu, &view)?;
     let reference = Reference::of_every_pixel(size, Oracle::new(&bench.scene).first_hits(&rays));
-    let outcome = |name, piece| -> anyhow::Result<Outcome> {
+    let picture = |name, piece| -> anyhow::Result<Picture> {
         let options = Options { piece, ..Options::default() };
         let renderer = Box::new(Renderer::new(name, options, false));
         Ok(match PreparedRenderer::prepare(gpu, renderer, &bench.scene, &targets, &view) {
-            Ok(renderer) => Outcome::Compared(score(&reference, &renderer.hits)?),
-            Err(error) => Outcome::Refused(error.to_string()),
+            Ok(renderer) => Picture::Compared(score(&reference, &renderer.hits)?),
+            Err(error) => Picture::Refused(error.to_string()),
         })
     };
     let bounds = cubic_deviation(kernel);
     Ok(KernelRow {
         kernel: kernel.to_string(),
         deviation: (bounds.least, bounds.greatest),
-        cubic: outcome("illes", Piece::Cubic)?,
-        exact: outcome("illes-exact", Piece::Exact)?,
+        cubic: picture("illes", Piece::Cubic)?,
+        exact: picture("illes-exact", Piece::Exact)?,
     })
 }

@@ -1,4 +1,4 @@
-//! Measuring fragment lists on a scene, settings in turn.
+//! Measuring fragment lists on a scene, variants in turn.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -14,8 +14,8 @@ use harness::measure::{PreparedRenderer, time_all, views};
 use harness::record::Samples;
 use harness::stats::{quantile, sorted};
 
-/// What is measured beside each other.
-pub const SETTINGS: [(&str, Gather, Sort); 3] = [
+/// What is measured beside each other: name, gathering, sorting.
+pub const VARIANTS: [(&str, Gather, Sort); 3] = [
     ("illes", Gather::Raster, Sort::Host),
     ("illes, sorted on the device", Gather::Raster, Sort::Adapter),
     ("illes-compute", Gather::Tiles, Sort::Host),
@@ -37,22 +37,23 @@ pub struct Phases {
     pub cast: f64,
 }
 
-/// A setting measured on a scene.
+/// A variant measured on a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// What was loaded.
     pub scene: String,
     /// Number of balls.
     pub balls: usize,
-    /// One of [`SETTINGS`].
-    pub setting: String,
+    /// One of [`VARIANTS`].
+    #[serde(rename = "setting")]
+    pub variant: String,
     /// Milliseconds of each frame.
     pub frame_ms: Samples,
     /// Medians.
     pub phases: Phases,
     /// Median milliseconds of each pass.
     pub passes: BTreeMap<String, f64>,
-    /// Pixels that had more separators than the array has room for.
+    /// Pixels that had more separators than the array has capacity for.
     pub fallback_pixels: u64,
     /// Lists of the first frame.
     pub lists: Lists,
@@ -134,13 +135,13 @@ impl Phases {
     }
 }
 
-/// A renderer of a setting.
+/// A renderer of a variant.
 pub fn renderer((name, gather, sort): (&'static str, Gather, Sort)) -> Renderer {
     Renderer::new(name, Options { gather, sort, ..Options::default() }, false)
 }
 
-/// Measures all settings on a scene, so many frames in turn, each from a camera of its own near the
-/// given one. A setting that fails has its reason in its place.
+/// Measures all variants on a scene, so many frames in turn, each from a camera of its own near the
+/// given one. One that fails has its reason instead of a run.
 ///
 /// # Errors
 /// When the pictures are too large for the adapter.
@@ -156,9 +157,9 @@ pub fn measure(
     let targets = Targets::new(gpu, size.0, size.1, scene.colors().is_some(), false)?;
     let mut renderers = Vec::new();
     let mut prepared = Vec::new();
-    for setting in SETTINGS {
-        stage(setting.0);
-        prepared.push(prepare(gpu, bench, setting, &targets, &views[0]).map(
+    for variant in VARIANTS {
+        stage(variant.0);
+        prepared.push(prepare(gpu, bench, variant, &targets, &views[0]).map(
             |(renderer, lists)| {
                 renderers.push(renderer);
                 lists
@@ -168,8 +169,8 @@ pub fn measure(
     stage("timing");
     let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, || ());
     let mut timed = renderers.into_iter().zip(timings);
-    let run = |((setting, ..), lists): ((&str, Gather, Sort), anyhow::Result<Lists>)| {
-        let about = || format!("{}, {setting}", bench.name);
+    let run = |((variant, ..), lists): ((&str, Gather, Sort), anyhow::Result<Lists>)| {
+        let about = || format!("{}, {variant}", bench.name);
         let lists = lists.with_context(about)?;
         let (renderer, timing) = timed.next().context("a timing for each renderer")?;
         let timing = timing.with_context(about)?;
@@ -177,7 +178,7 @@ pub fn measure(
         Ok(Run {
             scene: bench.name.clone(),
             balls: scene.len(),
-            setting: setting.to_owned(),
+            variant: variant.to_owned(),
             phases: Phases::new(timing.frame_ms.median, &timing.passes),
             frame_ms: timing.frame_ms,
             passes: timing.passes,
@@ -190,17 +191,17 @@ pub fn measure(
             },
         })
     };
-    Ok(SETTINGS.into_iter().zip(prepared).map(run).collect())
+    Ok(VARIANTS.into_iter().zip(prepared).map(run).collect())
 }
 
 fn prepare(
     gpu: &Gpu,
     bench: &BenchScene,
-    setting: (&'static str, Gather, Sort),
+    variant: (&'static str, Gather, Sort),
     targets: &Targets,
     view: &View,
 ) -> anyhow::Result<(PreparedRenderer, Lists)> {
-    let mut renderer = renderer(setting);
+    let mut renderer = renderer(variant);
     renderer.build(gpu, &bench.scene)?;
     let lists = Lists::new(&renderer.list_lengths(gpu, targets, view)?);
     Ok((PreparedRenderer::prepare(gpu, Box::new(renderer), &bench.scene, targets, view)?, lists))

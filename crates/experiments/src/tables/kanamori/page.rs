@@ -2,11 +2,11 @@
 
 use super::paper::{ERROR_OF_T, ITERATIVE_ITERATIONS, SHORT_STACK_ITERATIONS};
 use super::plan::Part;
-use super::run::{GpuRun, Measured, Outcome};
-use super::settings::Setting;
-use super::{HEADINGS, Measurements, rows};
-use crate::html::{escape, section, table};
-use crate::page::{self, fact, remark_paragraphs, run_facts};
+use super::run::{GpuRun, Measured, PartResult};
+use super::variant::Variant;
+use super::{Measurements, table};
+use crate::html::{escape, section};
+use crate::page::{self, fact, remark_paragraphs};
 use crate::plot::line_plot;
 use harness::numbers::{decimal, small};
 
@@ -18,20 +18,16 @@ pub(super) fn page(measurements: &Measurements) -> String {
         "error of t {ERROR_OF_T}; iterations of a search {average} ({most}), before {before} \
          ({most_before})"
     );
-    let facts = run_facts(&measurements.provenance, Some(&measurements.adapter))
-        + &fact("The paper's", &printed);
-    let bouts = &measurements.bouts;
-    let mut remarks = measurements.remarks.clone();
-    remarks.extend(replaced_clipping(bouts));
-    let tables: String = Part::ALL
-        .iter()
-        .map(|&part| table(part.title(), &HEADINGS, &[0, 3], &rows(part, bouts)))
-        .collect();
-    let plots: String = bouts.iter().filter_map(plot).collect();
+    let facts = measurements.heading.facts() + &fact("The paper's", &printed);
+    let scenes = &measurements.scenes;
+    let mut remarks = measurements.heading.remarks.clone();
+    remarks.extend(replaced_clipping(scenes));
+    let tables: String = Part::ALL.iter().map(|&part| table(part, scenes).html()).collect();
+    let plots: String = scenes.iter().filter_map(plot).collect();
     let parts = [
         ("facts", facts),
         ("remarks", remark_paragraphs(&remarks)),
-        ("tables", tables + &plots + &figure_8(bouts)),
+        ("tables", tables + &plots + &figure_8(scenes)),
     ];
     page::page(
         "The measurements of Kanamori et al. 2008, repeated",
@@ -42,17 +38,17 @@ pub(super) fn page(measurements: &Measurements) -> String {
 
 /// Why what section 5.4 replaces takes other iterations than the paper's; `None` where it was not
 /// measured.
-fn replaced_clipping(bouts: &[Outcome]) -> Option<String> {
+fn replaced_clipping(scenes: &[PartResult]) -> Option<String> {
     let (average, most) = ITERATIVE_ITERATIONS;
-    let taken = |setting: Setting| {
-        let runs = bouts.iter().filter_map(|bout| bout.result.as_ref().ok());
+    let taken = |variant: Variant| {
+        let runs = scenes.iter().filter_map(|scene| scene.measured.result.as_ref().ok());
         let mut runs = runs.flat_map(|measured| &measured.runs);
-        let run = runs.find(|run| run.setting == setting.name())?.result.as_ref().ok()?;
+        let run = runs.find(|run| run.variant == variant.name())?.result.as_ref().ok()?;
         let (mean, most) = run.iterations;
         Some(format!("{} ({most})", decimal(mean)))
     };
-    let iterative = taken(Setting::Iterative)?;
-    let original = taken(Setting::Original).map_or_else(String::new, |original| {
+    let iterative = taken(Variant::Iterative)?;
+    let original = taken(Variant::Original).map_or_else(String::new, |original| {
         format!(" The original recursion takes {original}; the paper has no number for it.")
     });
     Some(format!(
@@ -63,24 +59,25 @@ fn replaced_clipping(bouts: &[Outcome]) -> Option<String> {
     ))
 }
 
-/// Time over error, for a bout of thresholds.
-fn plot(bout: &Outcome) -> Option<String> {
-    let measured = bout.result.as_ref().ok().filter(|_| bout.part == Part::Thresholds)?;
+/// Time over error, for a scene of thresholds.
+fn plot(scene: &PartResult) -> Option<String> {
+    let measured =
+        scene.measured.result.as_ref().ok().filter(|_| scene.part == Part::Thresholds)?;
     let runs = measured.runs.iter().filter_map(|run| run.result.as_ref().ok());
     let mut points: Vec<_> = runs
         .filter_map(|run| Some((-run.rel_rms_t?.max(1e-12).log10(), run.frame_ms.median)))
         .collect();
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     let drawn = line_plot(&points, "digits of t: −log₁₀ of its error", "ms a frame");
-    Some(format!("<h2>Time against error: {}</h2>\n{drawn}", escape(&bout.scene)))
+    Some(format!("<h2>Time against error: {}</h2>\n{drawn}", escape(&scene.measured.scene)))
 }
 
 /// Where the time goes: on the CPU between its two phases, on the device between the passes.
-fn figure_8(bouts: &[Outcome]) -> String {
-    let row = |(bout, measured): (&Outcome, &Measured)| {
+fn figure_8(scenes: &[PartResult]) -> String {
+    let row = |(scene, measured): (&PartResult, &Measured)| {
         let gpu = measured.runs.first()?.result.as_ref().ok()?;
         let cpu = &measured.cpu;
-        let (width, height) = bout.size;
+        let (width, height) = scene.measured.size;
         let cells = [
             decimal(cpu.frame_ms.median),
             decimal(100.0 * cpu.traversal_share),
@@ -92,11 +89,12 @@ fn figure_8(bouts: &[Outcome]) -> String {
         Some(format!(
             "<tr><td class=\"text\">{}</td><td>{width}×{height}</td>{cells}\
              <td class=\"text\">{}</td></tr>\n",
-            escape(&bout.scene),
+            escape(&scene.measured.scene),
             escape(&passes(gpu))
         ))
     };
-    let measured = bouts.iter().filter_map(|bout| Some((bout, bout.result.as_ref().ok()?)));
+    let measured =
+        scenes.iter().filter_map(|scene| Some((scene, scene.measured.result.as_ref().ok()?)));
     let body: String = measured.filter_map(row).collect();
     let headings = "<th class=\"text\">Scene</th><th>Picture</th><th>CPU<small>ms</small></th>\
          <th>Traversal<small>%</small></th><th>Isosurface test<small>%</small></th>\

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::paper::{SHOWN, SMALL, TABLE_1, TotalTime};
-use super::settings::Setting;
-use crate::tables::Extent;
+use super::variant::Variant;
+use crate::extent::Extent;
 
 /// A part of the report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,7 +38,7 @@ impl Part {
 
 /// Variants on one scene at one size, timed in turn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bout {
+pub struct PlannedScene {
     /// Where it is reported.
     pub part: Part,
     /// What to load.
@@ -46,49 +46,54 @@ pub struct Bout {
     /// Pixels across and down.
     pub size: (u32, u32),
     /// The variants; the first is what the others are compared with.
-    pub settings: Vec<Setting>,
+    pub variants: Vec<Variant>,
     /// The paper's milliseconds: GPU, and CPU where printed.
     pub paper_ms: Option<(f64, Option<f64>)>,
 }
 
 /// Everything to measure; what matters most comes first. With `size` everything has that size, and the
 /// rows of table 1 that differ in nothing else are one.
-pub fn bouts(extent: Extent, size: Option<(u32, u32)>) -> Vec<Bout> {
+pub fn plan(extent: Extent, size: Option<(u32, u32)>) -> Vec<PlannedScene> {
     let is_quick = extent == Extent::Quick;
     let size = |own| size.unwrap_or(if is_quick { (64, 48) } else { own });
     let spec = |spec: &str, quick: &str| (if is_quick { quick } else { spec }).to_owned();
     // What is printed holds for the paper's sizes; a quick run shows the form of the rows only.
     let printed = |own, ms| (is_quick || size(own) == own).then_some(ms);
-    let plain =
-        |part, spec, settings| Bout { part, spec, size: size(SMALL), settings, paper_ms: None };
+    let plain = |part, spec, variants| PlannedScene {
+        part,
+        spec,
+        size: size(SMALL),
+        variants,
+        paper_ms: None,
+    };
 
     let figure_1 = || spec("random-1k", "random:300");
-    let mut bouts = vec![
+    let mut plan = vec![
         plain(Part::Optimizations, figure_1(), optimizations(is_quick)),
         plain(Part::Thresholds, figure_1(), thresholds(is_quick)),
     ];
     let totals = if is_quick { &TABLE_1[..1] } else { TABLE_1 };
     let is_own = |row: &&TotalTime| size(row.size) == row.size || row.size == SMALL;
-    bouts.extend(totals.iter().filter(is_own).map(|row| Bout {
+    plan.extend(totals.iter().filter(is_own).map(|row| PlannedScene {
         part: Part::TotalTimes,
         spec: spec(&format!("random:{}", row.balls), "random:500"),
         size: size(row.size),
-        settings: vec![Setting::Published],
+        variants: vec![Variant::Published],
         paper_ms: printed(row.size, (row.gpu_ms, Some(row.cpu_ms))),
     }));
     let shown = if is_quick { &SHOWN[2..3] } else { SHOWN };
-    bouts.extend(shown.iter().map(|&(spec, fps)| Bout {
+    plan.extend(shown.iter().map(|&(spec, fps)| PlannedScene {
         paper_ms: printed(SMALL, (1e3 / fps, None)),
-        ..plain(Part::Scenes, spec.to_owned(), vec![Setting::Published, Setting::Robust])
+        ..plain(Part::Scenes, spec.to_owned(), vec![Variant::Published, Variant::Robust])
     }));
     if !is_quick {
-        bouts.push(plain(Part::Optimizations, "dam-break".to_owned(), optimizations(false)));
+        plan.push(plain(Part::Optimizations, "dam-break".to_owned(), optimizations(false)));
     }
-    bouts
+    plan
 }
 
-fn optimizations(is_quick: bool) -> Vec<Setting> {
-    use Setting::{
+fn optimizations(is_quick: bool) -> Vec<Variant> {
+    use Variant::{
         Iterative, Original, Published, RegisteredOnDevice, Tessellated, Tiles, Unculled,
     };
     let one_each = [Published, Tessellated, Unculled, Tiles(1), Iterative];
@@ -97,8 +102,8 @@ fn optimizations(is_quick: bool) -> Vec<Setting> {
 }
 
 /// Both readings of the paper's 10e−4 are among them.
-fn thresholds(is_quick: bool) -> Vec<Setting> {
+fn thresholds(is_quick: bool) -> Vec<Variant> {
     let all = [1e-3, 1e-1, 1e-2, 1e-4, 1e-5];
     let taken = if is_quick { &all[..2] } else { &all[..] };
-    taken.iter().map(|&threshold| Setting::Threshold(threshold)).collect()
+    taken.iter().map(|&threshold| Variant::Threshold(threshold)).collect()
 }

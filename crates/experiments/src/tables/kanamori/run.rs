@@ -1,4 +1,4 @@
-//! Measuring the variants of a bout in turn, and the CPU baseline beside them.
+//! Measuring variants on a scene in turn, and the CPU baseline beside them.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -10,45 +10,44 @@ use metaball_core::gpu::{Gpu, Targets, render};
 use metaball_core::{Hit, Ray, Scene, View, Work};
 use serde::{Deserialize, Serialize};
 
-use super::plan::{Bout, Part};
-use super::settings::Setting;
+use super::plan::{Part, PlannedScene};
+use super::variant::Variant;
 use crate::console::ProgressBar;
+use crate::tables::scene_result::SceneResult;
 use harness::measure::{PreparedRenderer, milliseconds, time_all, views};
 use harness::record::Samples;
 
-/// A bout with its results.
+/// A scene with its results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
+pub struct PartResult {
     /// Where it is reported.
     pub part: Part,
-    /// What was loaded.
-    pub scene: String,
-    /// Pixels across and down.
-    pub size: (u32, u32),
+    /// What was measured.
+    #[serde(flatten)]
+    pub measured: SceneResult<Measured>,
     /// The paper's milliseconds on the GPU, where printed.
     pub paper_gpu_ms: Option<f64>,
     /// The paper's milliseconds on the CPU, where printed.
     pub paper_cpu_ms: Option<f64>,
-    /// What was measured, or why nothing was.
-    pub result: Result<Measured, String>,
 }
 
-/// What a bout measured.
+/// What was measured on a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// Number of balls.
     pub balls: usize,
-    /// The variants, in the bout's order.
-    pub runs: Vec<Run>,
+    /// The variants, in the order planned.
+    pub runs: Vec<VariantResult>,
     /// The CPU baseline.
     pub cpu: CpuRun,
 }
 
-/// A variant on the device.
+/// A variant on the adapter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Run {
-    /// Name of the setting.
-    pub setting: String,
+pub struct VariantResult {
+    /// Its name.
+    #[serde(rename = "setting")]
+    pub variant: String,
     /// What was measured, or why nothing was.
     pub result: Result<GpuRun, String>,
 }
@@ -96,43 +95,47 @@ pub(super) const STEPS: u64 = 2 + FRAMES as u64;
 /// The baseline's threshold where it is the reference.
 const REFERENCE_THRESHOLD: f64 = 1e-6;
 
-/// Measures a bout.
+/// Measures all variants on a scene.
 ///
 /// # Errors
 /// When the scene does not load, or the pictures are too large for the adapter.
-pub fn measure(gpu: &Gpu, bout: &Bout, progress: &ProgressBar) -> anyhow::Result<Measured> {
-    let bench = load(&bout.spec, &Overrides::default())?;
+pub fn measure(
+    gpu: &Gpu,
+    planned: &PlannedScene,
+    progress: &ProgressBar,
+) -> anyhow::Result<Measured> {
+    let bench = load(&planned.spec, &Overrides::default())?;
     let scene = &bench.scene;
-    let views = views(&bench.camera, &[], &scene.bounds(), bout.size, FRAMES)?;
-    let (width, height) = bout.size;
+    let views = views(&bench.camera, &[], &scene.bounds(), planned.size, FRAMES)?;
+    let (width, height) = planned.size;
     let targets = Targets::new(gpu, width, height, scene.colors().is_some(), false)?;
 
     let mut renderers = Vec::new();
     let mut prepared = Vec::new();
     let mut seen = None;
-    for &setting in &bout.settings {
-        progress.stage(format!("{}: {}", bout.spec, setting.name()));
-        let outcome = prepare(gpu, scene, &targets, &views[0], setting).and_then(|made| {
+    for &variant in &planned.variants {
+        progress.stage(format!("{}: {}", planned.spec, variant.name()));
+        let outcome = prepare(gpu, scene, &targets, &views[0], variant).and_then(|made| {
             let rays = targets.read_rays(gpu, &views[0])?;
             renderers.push(made.0);
             seen = Some(rays);
             Ok(made.1)
         });
-        prepared.push((setting, outcome));
+        prepared.push((variant, outcome));
         progress.advance(2);
     }
     let rays = seen.context("no variant could draw the scene")?;
 
-    progress.stage(format!("{}: CPU", bout.spec));
+    progress.stage(format!("{}: CPU", planned.spec));
     let (cpu, reference) = baseline(scene, &rays)?;
-    progress.stage(format!("{}: timing", bout.spec));
+    progress.stage(format!("{}: timing", planned.spec));
     let errors: Vec<_> =
         renderers.iter().map(|renderer| error_of_t(&renderer.hits, &reference)).collect();
     let advance = || progress.advance(1);
     let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, advance);
     let mut timed = timings.into_iter().zip(errors);
 
-    let run = |(setting, prepared): (Setting, anyhow::Result<WorkOfRays>)| {
+    let run = |(variant, prepared): (Variant, anyhow::Result<WorkOfRays>)| {
         let result = prepared.and_then(|work| {
             let (timing, (rel_rms_t, other_verdicts)) = timed.next().context("a timing each")?;
             let timing = timing?;
@@ -146,7 +149,10 @@ pub fn measure(gpu: &Gpu, bout: &Bout, progress: &ProgressBar) -> anyhow::Result
                 other_verdicts,
             })
         });
-        Run { setting: setting.name(), result: result.map_err(|error| format!("{error:#}")) }
+        VariantResult {
+            variant: variant.name(),
+            result: result.map_err(|error| format!("{error:#}")),
+        }
     };
     let runs = prepared.into_iter().map(run).collect();
     Ok(Measured { balls: scene.len(), runs, cpu })
@@ -157,10 +163,10 @@ fn prepare(
     scene: &Scene,
     targets: &Targets,
     view: &View,
-    setting: Setting,
+    variant: Variant,
 ) -> anyhow::Result<(PreparedRenderer, WorkOfRays)> {
     let size = (view.width(), view.height());
-    let mut counting = setting.renderer(size, true);
+    let mut counting = variant.renderer(size, true);
     counting.build(gpu, scene)?;
     let counted = Targets::new(gpu, size.0, size.1, scene.colors().is_some(), true)?;
     render(gpu, counting.as_mut(), &counted, view)?;
@@ -168,7 +174,7 @@ fn prepare(
     let facts = counting.frame_facts(gpu)?.into_iter();
     work.facts = facts.map(|(name, value)| (name.to_owned(), value)).collect();
     let renderer =
-        PreparedRenderer::prepare(gpu, setting.renderer(size, false), scene, targets, view)?;
+        PreparedRenderer::prepare(gpu, variant.renderer(size, false), scene, targets, view)?;
     Ok((renderer, work))
 }
 

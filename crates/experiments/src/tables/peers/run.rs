@@ -25,7 +25,7 @@ pub const THREADS: usize = 2;
 
 /// A scene for both tracers.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Bout {
+pub struct PlannedScene {
     /// What to load.
     pub spec: String,
     /// Pixels across and down.
@@ -34,22 +34,11 @@ pub struct Bout {
     pub rounds: usize,
 }
 
-impl Bout {
+impl PlannedScene {
     /// Steps of progress: the rounds, the peer's depths, the oracle.
     pub(super) fn steps(&self) -> u64 {
         self.rounds as u64 + 2
     }
-}
-
-/// A scene with its results.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
-    /// What was loaded.
-    pub scene: String,
-    /// Pixels across and down.
-    pub size: (u32, u32),
-    /// What was measured, or why nothing was.
-    pub result: Result<Measured, String>,
 }
 
 /// What was measured on a scene.
@@ -97,14 +86,14 @@ pub struct Traced {
 /// When the scene does not load or no tree of it can be built. What goes wrong with the peer is in
 /// the result.
 pub fn measure(
-    bout: &Bout,
+    planned: &PlannedScene,
     peer: Option<&Povray>,
     progress: &ProgressBar,
 ) -> anyhow::Result<Measured> {
-    let bench = load(&bout.spec, &Overrides::default())?;
+    let bench = load(&planned.spec, &Overrides::default())?;
     let kernel = bench.scene.kernel().to_string();
     let scene = bench.scene.with_kernel(Kernel::QUARTIC);
-    let view = View::new(bench.camera, bout.size.0, bout.size.1)?;
+    let view = View::new(bench.camera, planned.size.0, planned.size.1)?;
     let pool = ThreadPoolBuilder::new().num_threads(THREADS).build().context("no threads")?;
 
     let mut ours = Rounds::default();
@@ -115,8 +104,8 @@ pub fn measure(
     });
     let mut job = job.map_err(|error| format!("{error:#}"));
     let mut hits = Vec::new();
-    for round in 1..=bout.rounds {
-        progress.stage(format!("{}: round {round} of {}", bout.spec, bout.rounds));
+    for round in 1..=planned.rounds {
+        progress.stage(format!("{}: round {round} of {}", planned.spec, planned.rounds));
         hits = pool.install(|| trace(&scene, &view, &mut ours))?;
         if let Ok((peer, drawn)) = &job {
             match peer.time(drawn) {
@@ -126,13 +115,13 @@ pub fn measure(
         }
         progress.advance(1);
     }
-    progress.stage(format!("{}: depths", bout.spec));
+    progress.stage(format!("{}: depths", planned.spec));
     let depths = job.and_then(|(peer, job)| peer.hits(&job).map_err(|error| format!("{error:#}")));
     progress.advance(1);
 
-    progress.stage(format!("{}: oracle", bout.spec));
+    progress.stage(format!("{}: oracle", planned.spec));
     let (images, rays) = (images(&hits, &depths), view.rays());
-    let reference = reference(&scene, &rays, bout.size, &images, &pool);
+    let reference = reference(&scene, &rays, planned.size, &images, &pool);
     progress.advance(1);
     let ours = ours.summary(&hits, score(&reference, &hits)?);
     let peer = match depths {

@@ -52,7 +52,7 @@ impl Form {
 
 /// A scene to be drawn by a method in all forms.
 #[derive(Debug, Clone)]
-pub struct Bout {
+pub struct PlannedScene {
     /// What to load.
     pub spec: String,
     /// Who draws.
@@ -65,7 +65,7 @@ pub struct Bout {
 
 /// A scene and a method with its results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
+pub struct SceneForms {
     /// What was loaded.
     pub scene: String,
     /// Number of balls.
@@ -143,7 +143,7 @@ struct Specialised {
     hits: Vec<Hit>,
 }
 
-impl Bout {
+impl PlannedScene {
     /// Steps of progress: preparing each form, and the rounds.
     pub(super) fn steps(&self) -> u64 {
         FORMS.len() as u64 + self.rounds as u64
@@ -153,7 +153,7 @@ impl Bout {
     ///
     /// # Errors
     /// When the scene does not load or the specialised form cannot be drawn.
-    pub(super) fn measure(&self, gpu: &Gpu, progress: &ProgressBar) -> anyhow::Result<Outcome> {
+    pub(super) fn measure(&self, gpu: &Gpu, progress: &ProgressBar) -> anyhow::Result<SceneForms> {
         let BenchScene { scene, camera, .. } = load(&self.spec, &Overrides::default())?;
         let views = views(&camera, &[], &scene.bounds(), self.size, self.rounds)?;
         let first = views.first().context("needed a round to measure, found none")?;
@@ -183,7 +183,7 @@ impl Bout {
             form: form.name.to_owned(),
             result: drawer.map(|drawer| drawer.measured(&specialised)),
         };
-        Ok(Outcome {
+        Ok(SceneForms {
             scene: self.spec.clone(),
             balls: scene.len(),
             method: self.method.name.to_owned(),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::effect::Effect;
 use super::paper::{COST_EFFECTS, COSTS, Costs, GAINS, Gain};
 use super::run::{PassKind, Run, Wanted};
-use crate::tables::Extent;
+use crate::extent::Extent;
 use harness::numbers::decimal;
 
 /// The paper's structures, and the one beside them.
@@ -146,7 +146,7 @@ mod tests {
             effect: effect.name(),
             frame_ms: Samples::new(vec![0.5 * ms, ms, 3.0 * ms]),
             passes: BTreeMap::from([("first hits".to_owned(), 8.0), ("any hits".to_owned(), ms)]),
-            doubts: 0,
+            undecided: 0,
         }
     }
 

@@ -2,19 +2,18 @@
 
 use super::compare::CostRow;
 use super::run::{PassKind, Run};
-use super::{
-    COST_HEADINGS, COSTS_TITLE, GAIN_HEADINGS, GAINS_TITLE, Measurements, cost_rows, gain_rows,
-};
-use crate::html::{escape, table};
-use crate::page::{self, remark_paragraphs};
+use super::{Measurements, cost_table, gain_table};
+use crate::html::escape;
+use crate::page;
+use crate::table::{Column, Table};
 use harness::numbers::decimal;
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let gains = table(GAINS_TITLE, &GAIN_HEADINGS, &[0, 1], &gain_rows(&measurements.gains));
+    let gains = gain_table(&measurements.gains).html();
     let parts = [
         ("facts", measurements.heading.facts()),
-        ("remarks", remark_paragraphs(&measurements.heading.remarks)),
+        ("remarks", measurements.heading.heading.remark_paragraphs()),
         ("tables", costs(&measurements.costs) + &gains + &runs(&measurements.runs)),
     ];
     page::page(
@@ -30,21 +29,22 @@ fn costs(rows: &[CostRow]) -> String {
         Some(format!("<p>{}, {}: {}</p>\n", escape(&row.scene), escape(&row.effect), escape(why)))
     };
     let reasons: String = rows.iter().filter_map(why).collect();
-    table(COSTS_TITLE, &COST_HEADINGS, &[0, 1], &cost_rows(rows)) + &reasons
+    cost_table(rows).html() + &reasons
 }
 
 fn runs(runs: &[Run]) -> String {
-    let kinds = PassKind::ALL.map(PassKind::name);
-    let headings = ["scene", "structure", "effects", "frame ms"].into_iter().chain(kinds);
-    let headings: Vec<_> = headings.chain(["undecided rays"]).collect();
+    let texts = ["scene", "structure", "effects"].map(Column::text).into_iter();
+    let passes = PassKind::ALL.map(|kind| Column::number(kind.name()).of("ms"));
+    let frame = [Column::number("frame").of("ms")];
+    let columns = texts.chain(frame).chain(passes).chain([Column::number("undecided rays")]);
     let row = |run: &Run| {
         let frame = &run.frame_ms;
         let frame =
             format!("{} ({}–{})", decimal(frame.median), decimal(frame.p25), decimal(frame.p75));
         let texts = [run.scene.clone(), run.method.clone(), run.effect.clone(), frame];
         let passes = PassKind::ALL.map(|kind| decimal(run.pass_ms(kind)));
-        texts.into_iter().chain(passes).chain([run.doubts.to_string()]).collect()
+        texts.into_iter().chain(passes).chain([run.undecided.to_string()]).collect()
     };
-    let rows: Vec<_> = runs.iter().map(row).collect();
-    table("Where the time goes, ms", &headings, &[0, 1, 2], &rows)
+    let title = "Where the time goes".to_owned();
+    Table { title, columns: columns.collect(), rows: runs.iter().map(row).collect() }.html()
 }

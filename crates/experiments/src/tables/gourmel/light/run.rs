@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::effect::Effect;
 use crate::console::ProgressBar;
-use crate::tables::gourmel::run::Shoot;
+use crate::tables::gourmel::run::CameraPath;
 use harness::measure::{milliseconds, views};
 use harness::methods::find;
 use harness::record::Samples;
@@ -33,7 +33,8 @@ pub struct Run {
     /// Median milliseconds of each pass; those of one label are summed over the frame.
     pub passes: BTreeMap<String, f64>,
     /// Rays of the last frame that the method could not answer.
-    pub doubts: u64,
+    #[serde(alias = "doubts")]
+    pub undecided: u64,
 }
 
 /// What to draw, and the runs that tables name.
@@ -50,11 +51,11 @@ pub struct Wanted {
 struct Frames {
     wall_ms: Vec<f64>,
     passes_ms: BTreeMap<String, Vec<f64>>,
-    doubts: u64,
+    undecided: u64,
 }
 
 /// Draws every view with every wanted pair of a scene, in turn, after one that is not timed. A pair that
-/// fails has its reason in its place. Advances `progress` by [`steps`] for each pair.
+/// fails has its reason instead of a run. Advances `progress` by [`steps`] for each pair.
 ///
 /// # Errors
 /// When the scene does not load, or the pictures are too large for the adapter.
@@ -62,12 +63,12 @@ pub fn measure(
     gpu: &Gpu,
     spec: &str,
     wanted: &[Wanted],
-    shoot: Shoot,
+    path: CameraPath,
     progress: &ProgressBar,
 ) -> anyhow::Result<Vec<anyhow::Result<Run>>> {
     let bench = load(spec, &Overrides::default())?;
     let scene = &bench.scene;
-    let views = views(&bench.camera, &bench.path, &scene.bounds(), shoot.size, shoot.cameras)?;
+    let views = views(&bench.camera, &bench.path, &scene.bounds(), path.size, path.cameras)?;
     let mut renderers: BTreeMap<&str, Result<Box<dyn IsoRenderer>, String>> = BTreeMap::new();
     let mut tracers = Vec::new();
     for one in wanted {
@@ -111,15 +112,15 @@ pub fn measure(
             effect: one.effect.name(),
             frame_ms: Samples::new(frames.wall_ms),
             passes: frames.passes_ms.into_iter().filter_map(middle).collect(),
-            doubts: frames.doubts,
+            undecided: frames.undecided,
         })
     };
     Ok(wanted.iter().zip(frames).map(run).collect())
 }
 
 /// Steps of progress that [`measure`] makes for each pair.
-pub fn steps(shoot: Shoot) -> u64 {
-    shoot.cameras as u64 + 1
+pub fn steps(path: CameraPath) -> u64 {
+    path.cameras as u64 + 1
 }
 
 impl Frames {
@@ -137,7 +138,7 @@ impl Frames {
             for (label, time) in report.passes {
                 self.passes_ms.entry(label).or_default().push(milliseconds(time));
             }
-            self.doubts = tracer.undecided()?;
+            self.undecided = tracer.undecided()?;
         }
         Ok(())
     }
@@ -164,7 +165,7 @@ pub enum PassKind {
     FirstHits,
     /// Shadow and occlusion rays.
     AnyHits,
-    /// Dispatches that take rays up again, most of them empty.
+    /// Dispatches that resume rays, most of them empty.
     Resuming,
     /// What effects do themselves.
     Light,

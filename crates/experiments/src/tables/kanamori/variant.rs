@@ -5,7 +5,7 @@ use metaball_core::gpu::IsoRenderer;
 
 /// A variant of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Setting {
+pub enum Variant {
     /// As published, with the paper's grid of tiles for the picture's size.
     Published,
     /// Polyhedra in the place of rectangles: section 5.1.
@@ -26,7 +26,7 @@ pub enum Setting {
     Robust,
 }
 
-impl Setting {
+impl Variant {
     /// Its name in files and tables.
     pub fn name(self) -> String {
         match self {

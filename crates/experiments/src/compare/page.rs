@@ -1,7 +1,6 @@
-//! `index.html`: what a person looks at. One file that needs no other, and no network.
+//! `index.html` of `compare`: tables and pictures.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use crate::conclusions::conclusions;
 use crate::html::{base64, escape};
@@ -12,23 +11,9 @@ use harness::methods;
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Measured, Record, Records};
 use harness::score::Accuracy;
-use picture_files::write_atomically;
 
-/// Writes the page about scenes and their records.
-///
-/// # Errors
-/// When the file cannot be written.
-pub fn write_report(
-    path: &Path,
-    records: &Records,
-    scenes: &[SceneComparison],
-    remarks: &[String],
-) -> anyhow::Result<()> {
-    Ok(write_atomically(path, page(records, scenes, remarks).as_bytes())?)
-}
-
-/// The page. `remarks` are about the whole run.
-fn page(records: &Records, scenes: &[SceneComparison], remarks: &[String]) -> String {
+/// The page; needs no other file and no network. `remarks` are about the whole run.
+pub(super) fn page(records: &Records, scenes: &[SceneComparison], remarks: &[String]) -> String {
     let rows: String = scenes.iter().map(table_rows).collect();
     let sections: String = scenes.iter().map(scene_section).collect();
     let parts = [
@@ -38,7 +23,7 @@ fn page(records: &Records, scenes: &[SceneComparison], remarks: &[String]) -> St
         ("rows", rows),
         ("scenes", sections),
     ];
-    page::page("Metaball ray casters compared", include_str!("report.html"), &parts)
+    page::page("Metaball ray casters compared", include_str!("page.html"), &parts)
 }
 
 /// Which method to use for what.

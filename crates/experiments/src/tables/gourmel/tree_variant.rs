@@ -4,7 +4,7 @@ use fbvh::{Boxes, Cost, Fitting, Options, Structure};
 
 /// A structure with its options.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Setting {
+pub enum TreeVariant {
     /// Section 4.
     Modified,
     /// Section 5 with everything.
@@ -24,7 +24,7 @@ pub enum Setting {
     Levels(usize),
 }
 
-impl Setting {
+impl TreeVariant {
     /// Its name in files and tables.
     pub fn name(self) -> String {
         match self {

@@ -17,7 +17,7 @@ use harness::measure::{PreparedRenderer, Sampling, time_all, views};
 
 /// A scene to choose for.
 #[derive(Debug, Clone)]
-pub struct Study {
+pub struct PlannedScene {
     /// What [`bench_scenes::load`] takes.
     pub spec: String,
     /// Pixels across and down.
@@ -26,24 +26,14 @@ pub struct Study {
     pub errors: &'static [f64],
 }
 
-/// What became of it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
-    /// What was loaded.
-    pub scene: String,
-    /// Pixels across and down.
-    pub size: (u32, u32),
-    /// What was measured, or why nothing was.
-    pub result: Result<Measured, String>,
-}
-
 /// A scene, measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// Number of balls.
     pub balls: usize,
     /// One for each error.
-    pub verdicts: Vec<Verdict>,
+    #[serde(rename = "verdicts")]
+    pub choices: Vec<JudgedChoice>,
     /// Every candidate's name with its picture, or with why there is none.
     pub all: Vec<(String, Result<Drawn, String>)>,
 }
@@ -59,7 +49,7 @@ pub struct Drawn {
 
 /// What was chosen for an error, and what it is worth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
+pub struct JudgedChoice {
     /// The error that was asked for, mean support radii.
     pub max_error: f64,
     /// What was chosen, or why nothing was.
@@ -78,7 +68,7 @@ const RAYS: usize = 20_000;
 /// Five frames, or what fits into a second and a half.
 const FRAMES: Sampling = Sampling { most: 5, enough: std::time::Duration::from_millis(1_500) };
 
-impl Study {
+impl PlannedScene {
     pub(super) fn load(&self) -> anyhow::Result<BenchScene> {
         Ok(load(&self.spec, &Overrides::default())?)
     }
@@ -88,7 +78,7 @@ impl Study {
     }
 
     /// Chooses for each error as if nothing had been chosen before, then draws with everybody.
-    pub(super) fn make(
+    pub(super) fn measure(
         &self,
         gpu: &Gpu,
         configurations: &[Configuration],
@@ -107,15 +97,16 @@ impl Study {
         };
         let choices: Vec<_> = self.errors.iter().map(choose).collect();
         let all = self.draw_all(gpu, &bench, configurations, progress)?;
-        let verdict = |(max_error, choice, seconds): (f64, Result<Choice, String>, f64)| Verdict {
-            max_error,
-            drawn: choice.as_ref().ok().and_then(|choice| drawn(&all, &choice.configuration)),
-            best: best(&all, max_error),
-            choice,
-            seconds,
-        };
-        let verdicts = choices.into_iter().map(verdict).collect();
-        Ok(Measured { balls: bench.scene.len(), verdicts, all })
+        let judged =
+            |(max_error, choice, seconds): (f64, Result<Choice, String>, f64)| JudgedChoice {
+                max_error,
+                drawn: choice.as_ref().ok().and_then(|choice| drawn(&all, &choice.configuration)),
+                best: best(&all, max_error),
+                choice,
+                seconds,
+            };
+        let choices = choices.into_iter().map(judged).collect();
+        Ok(Measured { balls: bench.scene.len(), choices, all })
     }
 
     /// Everybody's picture of one view, timed in turn.
@@ -186,14 +177,7 @@ fn best(all: &[(String, Result<Drawn, String>)], max_error: f64) -> Option<(Stri
         .map(|(name, drawn)| (name.clone(), drawn.frame_ms))
 }
 
-impl Outcome {
-    /// What was chosen for each error; nothing where nothing was measured.
-    pub fn verdicts(&self) -> &[Verdict] {
-        self.result.as_ref().map_or(&[], |measured| &measured.verdicts)
-    }
-}
-
-impl Verdict {
+impl JudgedChoice {
     /// Time of the choice over that of the best, both of the view that no choice was made on. It is
     /// below 1 where the choice does not keep the error there and nobody else is as quick.
     pub fn ratio(&self) -> Option<f64> {

@@ -1,7 +1,23 @@
-//! Records for tests.
+//! What tests share.
 
 use harness::record::Record;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::{from_value, json};
+
+/// What the JSON of a file reads back as.
+pub(crate) fn read_back<F: Serialize + DeserializeOwned>(file: &F) -> F {
+    let text = serde_json::to_string(file).expect("JSON");
+    serde_json::from_str(&text).expect("as written")
+}
+
+/// A page needs no other file and no network, is filled in and whole, and says nothing of what is forbidden.
+pub(crate) fn assert_stands_alone(page: &str, forbidden: &[&str]) {
+    for forbidden in ["<script", "http", "url(", "{{"].iter().chain(forbidden) {
+        assert!(!page.contains(forbidden), "{forbidden}");
+    }
+    assert!(page.ends_with("</html>\n"));
+}
 
 /// A record of four rays with that frame time and so many of them wrong.
 pub(crate) fn measured_as(scene: &str, method: &str, ms: f64, wrong: usize) -> Record {
