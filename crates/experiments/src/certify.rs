@@ -5,11 +5,11 @@
 //! the solid. The CPU's tracer answers all of them, the shaders a third; nobody may be wrong about a ray
 //! that is clear to the oracle.
 
-pub mod aim;
-pub mod card;
+pub mod adapter;
+pub mod ray_distribution;
 pub mod record;
-pub mod shard;
 pub mod tally;
+pub mod test_scene;
 
 use std::fs;
 use std::path::PathBuf;
@@ -17,10 +17,10 @@ use std::time::Instant;
 
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
-use self::card::Card;
+use self::adapter::AdapterTracer;
 use self::record::{Certificate, DISTANCES, SCALES};
-use self::shard::{Shard, shards};
-use self::tally::{Count, Place, Tracer};
+use self::tally::{Category, Count, ErrorClass, Tracer};
+use self::test_scene::{TestScene, test_scenes};
 use crate::console::{self, ProgressBar, table};
 use harness::numbers::{grouped, small};
 
@@ -64,7 +64,7 @@ pub fn certify(options: &Options) -> anyhow::Result<()> {
     let fresh = Certificate::fresh(gpu.as_ref());
     let left = fresh.unfinished(&unfinished);
     if left.is_some() {
-        console::note("Going on where an interrupted run has stopped.");
+        console::note("Continuing an interrupted run.");
     }
     let certificate =
         run(options, gpu.as_ref(), left.unwrap_or(fresh), |state| state.write(&unfinished))?;
@@ -81,7 +81,7 @@ pub fn certify(options: &Options) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Goes on from a state until there are enough rays; `keep` is told after every group of scenes, and in
+/// Continues from a state until there are enough rays; calls `keep` after every group of scenes, and in
 /// the end.
 ///
 /// # Errors
@@ -93,16 +93,16 @@ pub fn run(
     mut keep: impl FnMut(&Certificate) -> anyhow::Result<()>,
 ) -> anyhow::Result<Certificate> {
     let (mut start, mut tally) = (Instant::now(), certificate.tally());
-    let mut card = gpu.map(Card::new).transpose()?;
+    let mut adapter = gpu.map(AdapterTracer::new).transpose()?;
     let progress = ProgressBar::new(options.rays);
     progress.reach(certificate.rays);
-    for shard in shards(options.seed, options.quick).skip(certificate.shards) {
-        if certificate.rays >= options.rays && matches!(shard, Shard::Arbitrary(_)) {
+    for scene in test_scenes(options.seed, options.quick).skip(certificate.test_scenes) {
+        if certificate.rays >= options.rays && matches!(scene, TestScene::Arbitrary(_)) {
             break;
         }
-        tally.add(shard.hold(options.rays_of_scene(), card.as_mut())?);
+        tally.add(scene.check(options.rays_of_scene(), adapter.as_mut())?);
         certificate.take(&tally);
-        certificate.shards += 1;
+        certificate.test_scenes += 1;
         progress.reach(certificate.rays.min(options.rays));
         let seconds = start.elapsed().as_secs_f64();
         if seconds > SECONDS_OF_GROUP {
@@ -130,20 +130,13 @@ fn summary(certificate: &Certificate) -> String {
     text += &format!(
         "\n\n{rays} rays on {} scenes, {near} of them within 1e-3 radii of tangency or a box's face, in \
          {:.0} s",
-        certificate.shards, certificate.seconds
+        certificate.test_scenes, certificate.seconds
     );
     for wrong in certificate.wrong.iter().take(10) {
-        let heading = &wrong.heading;
+        let Category { tracer, query, distribution } = wrong.category;
         text += &format!(
-            "\n\n{}: {}, {} at {}\nfrom {:?} towards {:?} up to {:?}\n{}",
-            wrong.shard,
-            heading.tracer,
-            heading.question,
-            heading.aim,
-            wrong.origin,
-            wrong.direction,
-            wrong.t_max,
-            wrong.account
+            "\n\n{}: {tracer}, {query}: {distribution}\nfrom {:?} towards {:?} up to {:?}\n{}",
+            wrong.test_scene, wrong.origin, wrong.direction, wrong.t_max, wrong.account
         );
     }
     text
@@ -157,7 +150,7 @@ fn tracers(certificate: &Certificate) -> impl Iterator<Item = Tracer> {
 
 fn counts(certificate: &Certificate) -> String {
     let headings = [
-        "rays aimed at",
+        "queries: rays",
         "rays",
         "near",
         "hits",
@@ -181,8 +174,8 @@ fn counts(certificate: &Certificate) -> String {
         std::iter::once(name).chain(numbers.map(|n| grouped(n as usize))).collect::<Vec<_>>()
     };
     let row = |row: &record::CountRow| {
-        let tally::Heading { tracer, question, aim } = row.heading;
-        cells(format!("{tracer}, {question}: {aim}"), row.count)
+        let Category { tracer, query, distribution } = row.category;
+        cells(format!("{tracer}, {query}: {distribution}"), row.count)
     };
     table(&headings, &certificate.counts.iter().map(row).collect::<Vec<_>>())
 }
@@ -196,8 +189,8 @@ fn errors(certificate: &Certificate, tracer: Tracer) -> String {
     let headings: Vec<_> = headings.iter().map(String::as_str).collect();
     let row = |scale: i32| {
         let cell = |distance: i32| {
-            let wanted = Place { tracer, scale, distance };
-            let found = certificate.errors.iter().find(|row| row.place == wanted);
+            let wanted = ErrorClass { tracer, scale, distance };
+            let found = certificate.errors.iter().find(|row| row.class == wanted);
             found.map_or_else(String::new, |row| small(row.errors.rms()))
         };
         std::iter::once(format!("1e{scale}")).chain(DISTANCES.map(cell)).collect::<Vec<_>>()
@@ -221,16 +214,16 @@ mod tests {
 
     /// The run stops anywhere: here after the cases, before the first arbitrary scene.
     #[test]
-    fn a_short_run_is_a_certificate_and_goes_on_where_it_stopped() {
+    fn a_short_run_is_a_certificate_and_continues_where_it_stopped() {
         let go = |rays, from| run(&options(rays), None, from, |_| Ok(())).expect("run");
         let whole = go(12_000, Certificate::fresh(None));
         assert_eq!(whole.shortfalls(12_000), Vec::<String>::new(), "{}", summary(&whole));
-        assert!(summary(&whole).contains("CPU, exit: way out"));
+        assert!(summary(&whole).contains("CPU, exit: from inside"));
 
         let cases = go(1, Certificate::fresh(None));
-        assert!(cases.shards < whole.shards);
-        let taken_up = go(12_000, cases);
+        assert!(cases.test_scenes < whole.test_scenes);
+        let continued = go(12_000, cases);
         let without_time = |certificate| Certificate { seconds: 0.0, ..certificate };
-        assert_eq!(without_time(taken_up), without_time(whole));
+        assert_eq!(without_time(continued), without_time(whole));
     }
 }

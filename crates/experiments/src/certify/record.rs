@@ -7,14 +7,14 @@ use std::path::Path;
 use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
-use super::aim::Aim;
-use super::tally::{Count, Errors, Heading, Place, Question, Tally, Tracer, Wrong};
+use super::ray_distribution::RayDistribution;
+use super::tally::{Category, Count, ErrorClass, Errors, Query, Tally, Tracer, Wrong};
 use harness::machine::Provenance;
 use harness::output::write_json;
 use harness::record::Adapter;
 
 /// Name and version of the format of [`Certificate`].
-pub const SCHEMA: &str = "metaball-certificate/1";
+pub const SCHEMA: &str = "metaball-certificate/2";
 
 /// The most clear rays without an answer: one in so many.
 pub const UNDECIDED_ONE_IN: u64 = 10_000;
@@ -40,37 +40,38 @@ pub struct Certificate {
     pub adapter: Option<Adapter>,
     /// Different rays held against the oracle.
     pub rays: u64,
-    /// Scenes that are done, of [`shards`](super::shard::shards).
-    pub shards: usize,
+    /// Scenes that are done, of [`test_scenes`](super::test_scene::test_scenes).
+    #[serde(alias = "shards")]
+    pub test_scenes: usize,
     /// Seconds that it took, interruptions left out.
     pub seconds: f64,
-    /// Counts, by tracer, question and aim.
+    /// Counts, by tracer, query and distribution of rays.
     pub counts: Vec<CountRow>,
     /// Relative errors of t, by tracer, scale and distance.
     pub errors: Vec<ErrorRow>,
     /// Hits, by tracer and size of the relative error.
-    pub histogram: Vec<Bin>,
+    pub histogram: Vec<HistogramBin>,
     /// The first wrong answers in full.
     pub wrong: Vec<Wrong>,
 }
 
-/// A heading with its count.
+/// A count of answers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CountRow {
     /// Of what.
     #[serde(flatten)]
-    pub heading: Heading,
+    pub category: Category,
     /// How many.
     #[serde(flatten)]
     pub count: Count,
 }
 
-/// A place with its errors.
+/// Errors of one class.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ErrorRow {
     /// Where.
     #[serde(flatten)]
-    pub place: Place,
+    pub class: ErrorClass,
     /// How large.
     #[serde(flatten)]
     pub errors: Errors,
@@ -78,7 +79,7 @@ pub struct ErrorRow {
 
 /// Hits with errors of one size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Bin {
+pub struct HistogramBin {
     /// Whose.
     pub tracer: Tracer,
     /// The power of ten at or below |t − t*|/t*; the least one holds all smaller errors.
@@ -94,7 +95,7 @@ impl Certificate {
             provenance: Provenance::here(SCHEMA),
             adapter: gpu.map(|gpu| gpu.report().into()),
             rays: 0,
-            shards: 0,
+            test_scenes: 0,
             seconds: 0.0,
             counts: Vec::new(),
             errors: Vec::new(),
@@ -105,21 +106,21 @@ impl Certificate {
 
     /// Takes what was counted into the record.
     pub fn take(&mut self, tally: &Tally) {
-        let count = |(&heading, &count)| CountRow { heading, count };
+        let count = |(&category, &count)| CountRow { category, count };
         self.counts = tally.counts.iter().map(count).collect();
-        let error = |(&place, &errors)| ErrorRow { place, errors };
+        let error = |(&class, &errors)| ErrorRow { class, errors };
         self.errors = tally.errors.iter().map(error).collect();
-        let bin = |(&(tracer, decade), &hits)| Bin { tracer, decade, hits };
+        let bin = |(&(tracer, decade), &hits)| HistogramBin { tracer, decade, hits };
         self.histogram = tally.histogram.iter().map(bin).collect();
         self.wrong = tally.wrong.clone();
         self.rays = self.distinct().map(|row| row.count.rays).sum();
     }
 
-    /// What was counted, to go on from.
+    /// What was counted, to continue from.
     pub fn tally(&self) -> Tally {
         Tally {
-            counts: self.counts.iter().map(|row| (row.heading, row.count)).collect(),
-            errors: self.errors.iter().map(|row| (row.place, row.errors)).collect(),
+            counts: self.counts.iter().map(|row| (row.category, row.count)).collect(),
+            errors: self.errors.iter().map(|row| (row.class, row.errors)).collect(),
             histogram: self
                 .histogram
                 .iter()
@@ -129,10 +130,10 @@ impl Certificate {
         }
     }
 
-    /// The rows in which every ray is counted once: the CPU is asked of each where it first hits.
+    /// The rows in which every ray is counted once: the CPU finds the first hit of each.
     fn distinct(&self) -> impl Iterator<Item = &CountRow> {
         let is_one = |row: &&CountRow| {
-            row.heading.tracer == Tracer::Cpu && row.heading.question == Question::FirstHit
+            row.category.tracer == Tracer::Cpu && row.category.query == Query::FirstHit
         };
         self.counts.iter().filter(is_one)
     }
@@ -144,17 +145,17 @@ impl Certificate {
 
     /// A sum over a tracer's rows.
     pub fn sum(&self, tracer: Tracer, of: impl Fn(&Count) -> u64) -> u64 {
-        let rows = self.counts.iter().filter(|row| row.heading.tracer == tracer);
+        let rows = self.counts.iter().filter(|row| row.category.tracer == tracer);
         rows.map(|row| of(&row.count)).sum()
     }
 
-    /// Rays that a tracer could not tell though they are clear to the oracle, and the rays that they are
-    /// held to be few of: all of the CPU's. The shaders have no f64 to go on to, so those that are aimed at
-    /// tangency are counted, but not held.
+    /// Rays that a tracer could not decide though they are clear to the oracle, and the rays that they are
+    /// held to be few of: all of the CPU's. The shaders have no f64 to continue in, so those along the
+    /// surface are counted, but not held.
     fn undecided(&self, tracer: Tracer) -> (u64, u64) {
         let is_held = |row: &&CountRow| {
-            let Heading { tracer: whose, aim, .. } = row.heading;
-            whose == tracer && (tracer == Tracer::Cpu || aim != Aim::Tangent)
+            let Category { tracer: whose, distribution, .. } = row.category;
+            whose == tracer && (tracer == Tracer::Cpu || distribution != RayDistribution::Tangent)
         };
         let held = self.counts.iter().filter(is_held).map(|row| row.count);
         held.fold((0, 0), |sum, count| (sum.0 + count.undecided_clear, sum.1 + count.rays))
@@ -164,7 +165,7 @@ impl Certificate {
     pub fn held_errors(&self, tracer: Tracer) -> Errors {
         let mut sum = Errors::default();
         let is_held = |row: &&ErrorRow| {
-            let Place { tracer: whose, scale, distance } = row.place;
+            let ErrorClass { tracer: whose, scale, distance } = row.class;
             whose == tracer && SCALES.contains(&scale) && DISTANCES.contains(&distance)
         };
         self.errors.iter().filter(is_held).for_each(|row| sum.add(&row.errors));
@@ -225,15 +226,18 @@ impl Certificate {
 mod tests {
     use super::*;
 
-    const FIRST_HITS: Heading =
-        Heading { tracer: Tracer::Cpu, question: Question::FirstHit, aim: Aim::Tangent };
+    const FIRST_HITS: Category = Category {
+        tracer: Tracer::Cpu,
+        query: Query::FirstHit,
+        distribution: RayDistribution::Tangent,
+    };
 
     fn certificate(count: Count, rms: f64) -> Certificate {
-        let place = Place { tracer: Tracer::Cpu, scale: 0, distance: 2 };
+        let class = ErrorClass { tracer: Tracer::Cpu, scale: 0, distance: 2 };
         let errors = Errors { hits: 4, squares: 4.0 * rms * rms, worst: rms };
         let mut tally = Tally::default();
         tally.counts.insert(FIRST_HITS, count);
-        tally.errors.insert(place, errors);
+        tally.errors.insert(class, errors);
         tally.histogram.insert((Tracer::Cpu, -8), 4);
         let mut certificate = Certificate::fresh(None);
         certificate.take(&tally);
@@ -268,23 +272,23 @@ mod tests {
     }
 
     #[test]
-    fn shaders_may_doubt_tangents_only() {
-        let shortfalls = |aim: Aim| {
+    fn shaders_may_leave_only_tangents_undecided() {
+        let shortfalls = |distribution: RayDistribution| {
             let mut certificate = certificate(GOOD, 1e-6);
-            let heading = Heading { tracer: Tracer::Adapter, aim, ..FIRST_HITS };
+            let category = Category { tracer: Tracer::Adapter, distribution, ..FIRST_HITS };
             let count = Count { undecided_clear: 11, ..GOOD };
-            certificate.counts.push(CountRow { heading, count });
+            certificate.counts.push(CountRow { category, count });
             certificate.shortfalls(100_000)
         };
-        assert_eq!(shortfalls(Aim::Tangent), Vec::<String>::new());
+        assert_eq!(shortfalls(RayDistribution::Tangent), Vec::<String>::new());
         assert_eq!(
-            shortfalls(Aim::Face),
+            shortfalls(RayDistribution::Face),
             ["adapter: needed at most 10 clear rays undecided, found 11"]
         );
     }
 
     #[test]
-    fn only_the_same_command_goes_on() {
+    fn only_the_same_command_continues() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("unfinished.json");
         let run = certificate(GOOD, 1e-6);

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use metaball_core::gpu::RayQuery;
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Hit, NO_LIMIT, Ray, Scene, Verdict};
 use serde::{Deserialize, Serialize};
 
-use super::aim::{Aim, Aimed};
+use super::ray_distribution::{RayDistribution, TestRay};
 use harness::fronts::WRONG_FRONT;
 use harness::score::{Finding, Judgement};
 
@@ -21,10 +22,10 @@ pub enum Tracer {
     Adapter,
 }
 
-/// What is asked.
+/// What a ray queries: [`RayQuery`] as records name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Question {
+pub enum Query {
     /// Where the ray first meets the solid.
     FirstHit,
     /// Whether it does.
@@ -42,7 +43,17 @@ impl fmt::Display for Tracer {
     }
 }
 
-impl fmt::Display for Question {
+impl From<RayQuery> for Query {
+    fn from(query: RayQuery) -> Self {
+        match query {
+            RayQuery::FirstHit => Self::FirstHit,
+            RayQuery::AnyHit => Self::AnyHit,
+            RayQuery::Exit => Self::Exit,
+        }
+    }
+}
+
+impl fmt::Display for Query {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::FirstHit => "first hit",
@@ -52,21 +63,23 @@ impl fmt::Display for Question {
     }
 }
 
-/// Whose answers to what, about rays aimed at what.
+/// Whose answers to what, about which rays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Heading {
+pub struct Category {
     /// Who answers.
     pub tracer: Tracer,
-    /// What is asked.
-    pub question: Question,
-    /// What the rays are aimed at.
-    pub aim: Aim,
+    /// What the rays query.
+    #[serde(alias = "question")]
+    pub query: Query,
+    /// How the rays were made.
+    #[serde(alias = "aim")]
+    pub distribution: RayDistribution,
 }
 
 /// How often the answers were what.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Count {
-    /// Rays asked.
+    /// Rays answered.
     pub rays: u64,
     /// Of these, within a thousandth of a radius of tangency or of a box's face.
     pub near: u64,
@@ -76,7 +89,7 @@ pub struct Count {
     pub misses: u64,
     /// Rays that the oracle finds too close to call; part of hits and misses.
     pub ambiguous: u64,
-    /// Rays that the tracer could not tell, ambiguous or not.
+    /// Rays that the tracer could not decide, ambiguous or not.
     pub undecided: u64,
     /// Of these, clear to the oracle.
     pub undecided_clear: u64,
@@ -86,7 +99,7 @@ pub struct Count {
 
 /// Where an error is counted: by its tracer, the ball's size and its distance, in whole powers of ten.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Place {
+pub struct ErrorClass {
     /// Who answers.
     pub tracer: Tracer,
     /// The nearest power of ten to the least radius at the hit, scene units.
@@ -120,13 +133,15 @@ impl Errors {
     }
 }
 
-/// A wrong answer, with what it takes to ask again.
+/// A wrong answer, with what it takes to trace its ray again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Wrong {
-    /// The shard.
-    pub shard: String,
+    /// The test scene.
+    #[serde(alias = "shard")]
+    pub test_scene: String,
     /// Who answered what.
-    pub heading: Heading,
+    #[serde(alias = "heading")]
+    pub category: Category,
     /// The ray's start, direction and end; decimal numbers that read back as the same floats.
     pub origin: [f32; 3],
     /// See `origin`.
@@ -143,10 +158,10 @@ const MOST_KEPT: usize = 200;
 /// Everything that was counted.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tally {
-    /// Counts, by heading.
-    pub counts: BTreeMap<Heading, Count>,
-    /// Errors of distance, by place.
-    pub errors: BTreeMap<Place, Errors>,
+    /// Counts.
+    pub counts: BTreeMap<Category, Count>,
+    /// Errors of distance.
+    pub errors: BTreeMap<ErrorClass, Errors>,
     /// Hits by tracer and power of ten at or below the relative error.
     pub histogram: BTreeMap<(Tracer, i32), u64>,
     /// The first wrong answers.
@@ -156,37 +171,38 @@ pub struct Tally {
 /// The power of ten below which an error is no error in f64 either.
 const LEAST_ERROR: i32 = -12;
 
-/// What is asked of whom in which shard.
+/// What is checked: who answers what in which test scene.
 #[derive(Clone, Copy)]
-pub struct Exam<'a> {
-    /// Name of the shard.
-    pub shard: &'a str,
-    /// Its scene.
+pub struct Check<'a> {
+    /// Name of the test scene.
+    pub test_scene: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
-    /// The judge.
+    /// The truth about it.
     pub oracle: &'a Oracle<'a>,
     /// Who answers.
     pub tracer: Tracer,
-    /// What is asked.
-    pub question: Question,
+    /// What the rays query.
+    pub query: Query,
 }
 
 impl Tally {
     /// Counts one answer.
-    pub fn count(&mut self, exam: &Exam<'_>, aimed: &Aimed, truth: &Truth, found: &Hit) {
-        let heading = Heading { tracer: exam.tracer, question: exam.question, aim: aimed.aim };
-        let (truth, hit) = in_terms_of_first_hits(exam.question, &aimed.ray, truth, found);
+    pub fn count(&mut self, check: &Check<'_>, ray: &TestRay, truth: &Truth, found: &Hit) {
+        let distribution = ray.distribution;
+        let category = Category { tracer: check.tracer, query: check.query, distribution };
+        let (truth, hit) = in_terms_of_first_hits(check.query, &ray.ray, truth, found);
         let mut judgement = Judgement::new(&truth, &hit);
         let is_undecided = judgement.finding == Finding::Undecided;
-        if exam.question == Question::Exit && (judgement.is_wrong() || is_undecided) {
+        if check.query == Query::Exit && (judgement.is_wrong() || is_undecided) {
             judgement.ambiguous =
-                judgement.ambiguous || exit_is_ambiguous(exam, &aimed.ray, truth.t);
+                judgement.ambiguous || exit_is_ambiguous(check, &ray.ray, truth.t);
         }
         let is_wrong = judgement.is_wrong() && !is_as_near_as_floats(&truth, &hit);
 
-        let count = self.counts.entry(heading).or_default();
+        let count = self.counts.entry(category).or_default();
         count.rays += 1;
-        count.near += u64::from(aimed.is_near(&truth));
+        count.near += u64::from(ray.is_near(&truth));
         let is_hit = truth.verdict != Verdict::Miss;
         *(if is_hit { &mut count.hits } else { &mut count.misses }) += 1;
         count.ambiguous += u64::from(judgement.ambiguous);
@@ -197,10 +213,10 @@ impl Tally {
         if is_wrong {
             count.wrong += 1;
             if self.wrong.len() < MOST_KEPT {
-                let Ray { origin, direction, t_max } = aimed.ray;
+                let Ray { origin, direction, t_max } = ray.ray;
                 self.wrong.push(Wrong {
-                    shard: exam.shard.to_owned(),
-                    heading,
+                    test_scene: check.test_scene.to_owned(),
+                    category,
                     origin: origin.to_array(),
                     direction: direction.to_array(),
                     t_max,
@@ -208,11 +224,11 @@ impl Tally {
                 });
             }
         } else if !judgement.ambiguous
-            && exam.question != Question::AnyHit
+            && check.query != Query::AnyHit
             && matches!(judgement.finding, Finding::Hit { .. })
             && truth.t > 0.0
         {
-            self.measure(exam.tracer, &truth, &hit);
+            self.measure(check.tracer, &truth, &hit);
         }
     }
 
@@ -222,15 +238,15 @@ impl Tally {
         let scale = radius.log10().round() as i32;
         let distance = (truth.t / radius).log10().floor() as i32;
         let errors = Errors { hits: 1, squares: relative * relative, worst: relative };
-        self.errors.entry(Place { tracer, scale, distance }).or_default().add(&errors);
+        self.errors.entry(ErrorClass { tracer, scale, distance }).or_default().add(&errors);
         let decade = relative.max(1e-300).log10().floor() as i32;
         *self.histogram.entry((tracer, decade.max(LEAST_ERROR))).or_default() += 1;
     }
 
     /// Adds what was counted elsewhere.
     pub fn add(&mut self, other: Self) {
-        for (heading, count) in other.counts {
-            let sum = self.counts.entry(heading).or_default();
+        for (category, count) in other.counts {
+            let sum = self.counts.entry(category).or_default();
             sum.rays += count.rays;
             sum.near += count.near;
             sum.hits += count.hits;
@@ -240,36 +256,31 @@ impl Tally {
             sum.undecided_clear += count.undecided_clear;
             sum.wrong += count.wrong;
         }
-        for (place, errors) in other.errors {
-            self.errors.entry(place).or_default().add(&errors);
+        for (class, errors) in other.errors {
+            self.errors.entry(class).or_default().add(&errors);
         }
-        for (place, hits) in other.histogram {
-            *self.histogram.entry(place).or_default() += hits;
+        for (bin, hits) in other.histogram {
+            *self.histogram.entry(bin).or_default() += hits;
         }
-        let room = MOST_KEPT.saturating_sub(self.wrong.len());
-        self.wrong.extend(other.wrong.into_iter().take(room));
+        let left = MOST_KEPT.saturating_sub(self.wrong.len());
+        self.wrong.extend(other.wrong.into_iter().take(left));
     }
 }
 
-/// An answer to another question, and its truth, as a first hit would be put: an exit is the hit of a ray
-/// that starts inside; of an any hit only the verdict counts.
-fn in_terms_of_first_hits(
-    question: Question,
-    ray: &Ray,
-    truth: &Truth,
-    found: &Hit,
-) -> (Truth, Hit) {
-    match question {
-        Question::FirstHit => (*truth, *found),
-        Question::AnyHit => (*truth, Hit { t: truth.t as f32, ..*found }),
-        Question::Exit => {
+/// An answer to any query, and its truth, in terms of first hits: an exit is the hit of a ray that starts
+/// inside; of an any hit only the verdict counts.
+fn in_terms_of_first_hits(query: Query, ray: &Ray, truth: &Truth, found: &Hit) -> (Truth, Hit) {
+    match query {
+        Query::FirstHit => (*truth, *found),
+        Query::AnyHit => (*truth, Hit { t: truth.t as f32, ..*found }),
+        Query::Exit => {
             let comes_out = truth.verdict == Verdict::Inside && truth.exit < f64::from(ray.t_max);
             let truth = if comes_out {
                 Truth { verdict: Verdict::Hit, t: truth.exit, ..*truth }
             } else {
                 Truth { verdict: Verdict::Miss, t: f64::INFINITY, ..*truth }
             };
-            // The space beyond the solid, found at the start: there is no way out to find.
+            // The space beyond the solid, found at the start: there is no exit to find.
             let starts_outside = found.verdict == Verdict::Inside;
             (truth, if starts_outside { Hit::MISS } else { *found })
         }
@@ -283,13 +294,13 @@ fn is_as_near_as_floats(truth: &Truth, hit: &Hit) -> bool {
     truth.verdict != Verdict::Miss && hit.is_hit() && (f64::from(hit.t) - truth.t).abs() <= reach
 }
 
-/// The oracle's margin of a start inside says nothing of the way out: whether raising or lowering the
+/// The oracle's margin of a start inside says nothing of the exit: whether raising or lowering the
 /// field by the ambiguous share of T moves it from this front.
-fn exit_is_ambiguous(exam: &Exam<'_>, ray: &Ray, leaves: f64) -> bool {
+fn exit_is_ambiguous(check: &Check<'_>, ray: &Ray, leaves: f64) -> bool {
     let share = Truth::AMBIGUOUS as f32;
     [1.0 - share, 1.0 + share].into_iter().any(|factor| {
-        let threshold = exam.scene.threshold() * factor;
-        exam.scene.clone().with_threshold(threshold).is_ok_and(|scene| {
+        let threshold = check.scene.threshold() * factor;
+        check.scene.clone().with_threshold(threshold).is_ok_and(|scene| {
             let truth = Oracle::new(&scene).first_hit(ray);
             let reach = WRONG_FRONT * f64::from(truth.smallest_radius);
             let end = f64::from(ray.t_max);
@@ -306,36 +317,36 @@ mod tests {
     use metaball_core::{Kernel, Metaball};
 
     use super::*;
-    use crate::certify::aim;
+    use crate::certify::ray_distribution::of_picture;
 
-    /// Doubts about the way out through a ball, from so far right of its centre to the left, that are counted
-    /// as clear rays'; and wrong answers.
+    /// Undecided exits from a ball, from so far right of its centre to the left, that are counted as clear
+    /// rays'; and wrong answers.
     fn counted(start: f32, found: Hit) -> (u64, u64) {
         let ball = Metaball::new(Vec3::ZERO, 1.0);
         let scene = Scene::new([ball], Kernel::QUARTIC, 0.5).expect("legal");
         let oracle = Oracle::new(&scene);
-        let exam = Exam {
-            shard: "one ball",
+        let check = Check {
+            test_scene: "one ball",
             scene: &scene,
             oracle: &oracle,
             tracer: Tracer::Adapter,
-            question: Question::Exit,
+            query: Query::Exit,
         };
         let ray = Ray::new(Vec3::X * start, Vec3::NEG_X);
         let mut tally = Tally::default();
         let truth = oracle.first_hit(&ray);
         assert_eq!(truth.verdict, Verdict::Inside);
-        tally.count(&exam, &aim::of_picture(ray), &truth, &found);
+        tally.count(&check, &of_picture(ray), &truth, &found);
         let count = tally.counts.values().next().expect("counted");
         (count.undecided_clear, count.wrong)
     }
 
     #[test]
     fn nothing_is_held_of_a_start_too_close_to_t() {
-        let doubt = Hit { verdict: Verdict::Undecided, ..Hit::MISS };
+        let undecided = Hit { verdict: Verdict::Undecided, ..Hit::MISS };
         // The field is T at 0.541196.
         let (close, clear) = (0.541_195, 0.3);
-        assert_eq!([counted(close, doubt), counted(clear, doubt)], [(0, 0), (1, 0)]);
+        assert_eq!([counted(close, undecided), counted(clear, undecided)], [(0, 0), (1, 0)]);
         let late = Hit { verdict: Verdict::Hit, t: 0.9 * (close + 0.541_196), ..Hit::MISS };
         assert_eq!([counted(close, late), counted(clear, late)], [(0, 0), (0, 1)]);
     }

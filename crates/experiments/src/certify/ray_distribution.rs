@@ -1,4 +1,4 @@
-//! Rays of a shard: what they are aimed at, so that they meet what is hard.
+//! How the rays of a test scene are distributed: each kind meets something that is hard.
 
 use std::fmt;
 
@@ -9,30 +9,30 @@ use metaball_core::reference::Truth;
 use metaball_core::{Camera, Ray, Scene, Verdict};
 use serde::{Deserialize, Serialize};
 
-/// What a ray is aimed at.
+/// How a ray was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Aim {
-    /// A pixel of a picture, seen from 1 to 10,000 radii away.
+pub enum RayDistribution {
+    /// Through a pixel of a picture, from 1 to 10,000 radii away.
     Picture,
-    /// A ball, from anywhere; some rays are short.
+    /// Towards a ball, from anywhere; some rays are short.
     Ball,
     /// Along the surface, past one of its points at up to a thousandth of its least radius.
     Tangent,
     /// Along a face of a leaf's box, an edge of it, or through a corner.
     Face,
-    /// The way out, from a point beneath the surface.
+    /// Out of the solid, from a point beneath the surface.
     Exit,
 }
 
-impl fmt::Display for Aim {
+impl fmt::Display for RayDistribution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Picture => "picture",
             Self::Ball => "ball",
             Self::Tangent => "tangent",
             Self::Face => "box face",
-            Self::Exit => "way out",
+            Self::Exit => "from inside",
         })
     }
 }
@@ -40,13 +40,13 @@ impl fmt::Display for Aim {
 /// How near to tangency or to a face counts as near, radii.
 pub const NEAR: f64 = 1e-3;
 
-/// A ray with its aim.
+/// A ray to test a tracer with.
 #[derive(Debug, Clone, Copy)]
-pub struct Aimed {
+pub struct TestRay {
     /// The ray.
     pub ray: Ray,
-    /// What it is aimed at.
-    pub aim: Aim,
+    /// How it was made.
+    pub distribution: RayDistribution,
     /// Where along it, in t, it is within [`NEAR`] of tangency or of a face; `None` where it is not known to
     /// be.
     pub near: Option<Near>,
@@ -55,7 +55,7 @@ pub struct Aimed {
 /// What a ray comes near to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Near {
-    /// A point of the surface along which it runs; only if the way there is free.
+    /// A point of the surface along which it runs; only if nothing lies before it.
     Tangency {
         /// Where, in t.
         t: f64,
@@ -66,9 +66,9 @@ pub enum Near {
     Face,
 }
 
-impl Aimed {
-    fn new(ray: Ray, aim: Aim) -> Self {
-        Self { ray, aim, near: None }
+impl TestRay {
+    fn new(ray: Ray, distribution: RayDistribution) -> Self {
+        Self { ray, distribution, near: None }
     }
 
     /// Whether the ray is as near to tangency or to a face as it was meant to be, which for tangency is up
@@ -87,13 +87,13 @@ impl Aimed {
 
 /// A point of the surface that a ray has found.
 #[derive(Debug, Clone, Copy)]
-pub struct Anchor {
+pub struct SurfacePoint {
     point: DVec3,
     normal: DVec3,
     radius: f64,
 }
 
-impl Anchor {
+impl SurfacePoint {
     /// Where the ray hits.
     pub fn new(ray: &Ray, truth: &Truth) -> Option<Self> {
         let radius = f64::from(truth.smallest_radius);
@@ -113,8 +113,8 @@ fn through(point: DVec3, direction: DVec3, before: f64) -> Ray {
     Ray::new((point - before * direction).as_vec3(), direction.as_vec3())
 }
 
-/// Towards a point in or beside a random ball, from up to 10,000 radii away; every fourth is short.
-pub fn at_ball(scene: &Scene, random: &mut Random) -> Aimed {
+/// Towards a point in or near a random ball, from up to 10,000 radii away; every fourth is short.
+pub fn at_ball(scene: &Scene, random: &mut Random) -> TestRay {
     let ball = scene.ball((random.unit() * scene.len() as f64) as usize);
     let radius = f64::from(ball.radius);
     let target = ball.center.as_dvec3() + 1.1 * radius * random.in_ball();
@@ -124,13 +124,13 @@ pub fn at_ball(scene: &Scene, random: &mut Random) -> Aimed {
     if random.unit() < 0.25 {
         ray.t_max = (before * random.between(0.0, 2.0)) as f32;
     }
-    Aimed::new(ray, Aim::Ball)
+    TestRay::new(ray, RayDistribution::Ball)
 }
 
 /// Past a point of the surface, along it: above or beneath by 1e-6 to 1e-3 of a radius. From afar rounding
 /// moves it further off; it is near if it still is.
-pub fn along_surface(anchor: &Anchor, random: &mut Random) -> Aimed {
-    let Anchor { point, normal, radius } = *anchor;
+pub fn along_surface(surface: &SurfacePoint, random: &mut Random) -> TestRay {
+    let SurfacePoint { point, normal, radius } = *surface;
     let side = random.one_of(&[-1.0, 1.0]);
     let lift = side * radius * decades(random, -6.0, -3.0);
     let high = random.one_of(&[1.0, 1.0, 4.0]);
@@ -143,12 +143,12 @@ pub fn along_surface(anchor: &Anchor, random: &mut Random) -> Aimed {
     let t = (point - origin).dot(direction) / direction.length_squared();
     let distance = (origin + t * direction).distance(point);
     let near = (distance <= NEAR * radius).then_some(Near::Tangency { t, radius });
-    Aimed { ray, aim: Aim::Tangent, near }
+    TestRay { ray, distribution: RayDistribution::Tangent, near }
 }
 
-/// Along a face of a leaf, on it or up to a thousandth of a radius beside; or along an edge, or through a
+/// Along a face of a leaf, on it or up to a thousandth of a radius off; or along an edge, or through a
 /// corner. Half of them run in planes of an axis exactly.
-pub fn along_face(scene: &Scene, tree: &Tree, random: &mut Random) -> Aimed {
+pub fn along_face(scene: &Scene, tree: &Tree, random: &mut Random) -> TestRay {
     let leaf = (random.unit() * tree.leaf_count() as f64) as usize;
     let bounds = tree.leaves()[leaf].bounds();
     let (own, split) = tree.leaf_balls(leaf);
@@ -167,10 +167,10 @@ pub fn along_face(scene: &Scene, tree: &Tree, random: &mut Random) -> Aimed {
         bounds.min.as_dvec3() + extent * DVec3::from_array([(); 3].map(|()| random.unit()));
     let mut direction = random.direction();
     let mut exact = [None; 3];
-    for place in 0..axes {
-        let axis = (first + place) % 3;
+    for offset in 0..axes {
+        let axis = (first + offset) % 3;
         let face = random.one_of(&[bounds.min, bounds.max])[axis];
-        point[axis] = f64::from(beside(face, radius, random));
+        point[axis] = f64::from(near_face(face, radius, random));
         if axes < 3 {
             let tilt = 0.5 * NEAR * radius / size;
             direction[axis] = if is_straight { 0.0 } else { tilt * random.between(-1.0, 1.0) };
@@ -184,7 +184,7 @@ pub fn along_face(scene: &Scene, tree: &Tree, random: &mut Random) -> Aimed {
         ray.origin[axis] = coordinate.unwrap_or(ray.origin[axis]);
     }
 
-    // Where it is beside the point, measured on the ray as it is sent.
+    // How near to a face it passes, measured on the ray as it is sent.
     let (origin, sent) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let t = (point - origin).dot(sent) / sent.length_squared();
     let there = origin + t * sent;
@@ -195,11 +195,11 @@ pub fn along_face(scene: &Scene, tree: &Tree, random: &mut Random) -> Aimed {
     };
     let distance = (0..3).map(nearest).fold(f64::INFINITY, f64::min);
     let near = (distance <= NEAR * radius).then_some(Near::Face);
-    Aimed { ray, aim: Aim::Face, near }
+    TestRay { ray, distribution: RayDistribution::Face, near }
 }
 
-/// A face's coordinate, or one beside it: by a float or two, or 1e-7 to 1e-3 radii.
-fn beside(face: f32, radius: f64, random: &mut Random) -> f32 {
+/// A face's coordinate, or one off by a float, or by 1e-7 to 1e-3 radii.
+fn near_face(face: f32, radius: f64, random: &mut Random) -> f32 {
     match (random.unit() * 6.0) as u32 {
         0 | 1 => face,
         2 => face.next_up(),
@@ -213,19 +213,19 @@ fn beside(face: f32, radius: f64, random: &mut Random) -> f32 {
 }
 
 /// From beneath a point of the surface in any direction; every eighth is short.
-pub fn way_out(anchor: &Anchor, random: &mut Random) -> Aimed {
-    let Anchor { point, normal, radius } = *anchor;
+pub fn from_inside(surface: &SurfacePoint, random: &mut Random) -> TestRay {
+    let SurfacePoint { point, normal, radius } = *surface;
     let depth = 0.5 * radius * decades(random, -5.0, 0.0);
     let mut ray = through(point - depth * normal, random.direction(), 0.0);
     if random.unit() < 0.125 {
         ray.t_max = (radius * random.unit()) as f32;
     }
-    Aimed::new(ray, Aim::Exit)
+    TestRay::new(ray, RayDistribution::Exit)
 }
 
 /// A primary ray.
-pub fn of_picture(ray: Ray) -> Aimed {
-    Aimed::new(ray, Aim::Picture)
+pub fn of_picture(ray: Ray) -> TestRay {
+    TestRay::new(ray, RayDistribution::Picture)
 }
 
 /// A camera 1 to 10,000 radii away from a ball, with a lens that shows the whole scene, or the ball;

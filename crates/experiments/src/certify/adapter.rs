@@ -10,16 +10,16 @@ use metaball_core::{Camera, Hit, Kernel, Ray, Scene, View};
 /// Rays of a batch: this many squared.
 pub const SIDE: u32 = 128;
 
-/// The adapter with a renderer for each kind of scene, since making pipelines takes longer than most of
+/// An adapter with a renderer for each kind of scene, since making pipelines takes longer than most of
 /// these batches.
-pub struct Card<'a> {
+pub struct AdapterTracer<'a> {
     gpu: &'a Gpu,
     targets: Targets,
     batch: RayBatch,
     renderers: Vec<(Kernel, bool, Renderer)>,
 }
 
-impl<'a> Card<'a> {
+impl<'a> AdapterTracer<'a> {
     /// Nothing is compiled yet.
     ///
     /// # Errors
@@ -34,7 +34,7 @@ impl<'a> Card<'a> {
     ///
     /// # Errors
     /// When it cannot be built, or the device fails.
-    pub fn build(&mut self, scene: &Scene) -> Result<Session<'_>, RenderError> {
+    pub fn build(&mut self, scene: &Scene) -> Result<AdapterScene<'_>, RenderError> {
         let (kernel, strengths) = (scene.kernel(), scene.strengths().is_some());
         let known = self.renderers.iter().position(|kind| (kind.0, kind.1) == (kernel, strengths));
         let index = known.unwrap_or(self.renderers.len());
@@ -44,19 +44,19 @@ impl<'a> Card<'a> {
         }
         let renderer = &mut self.renderers[index].2;
         renderer.build(self.gpu, scene)?;
-        Ok(Session { gpu: self.gpu, targets: &self.targets, batch: &self.batch, renderer })
+        Ok(AdapterScene { gpu: self.gpu, targets: &self.targets, batch: &self.batch, renderer })
     }
 }
 
-/// A scene on the card.
-pub struct Session<'a> {
+/// A scene on the adapter.
+pub struct AdapterScene<'a> {
     gpu: &'a Gpu,
     targets: &'a Targets,
     batch: &'a RayBatch,
     renderer: &'a mut Renderer,
 }
 
-impl Session<'_> {
+impl AdapterScene<'_> {
     /// The primary rays of a picture of [`SIDE`] by [`SIDE`] pixels, as the shaders made them, and what
     /// was found along them.
     ///

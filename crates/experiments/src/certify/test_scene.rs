@@ -1,4 +1,4 @@
-//! One scene with its rays, held against the oracle.
+//! A scene with its rays, held against the oracle.
 
 use anyhow::Context;
 use bench_scenes::{Case, Random, arbitrary, cases};
@@ -8,15 +8,15 @@ use metaball_core::gpu::{FreeRay, RayQuery};
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Camera, Hit, Ray, Scene, Verdict, View};
 
-use super::aim::{self, Aim, Aimed, Anchor};
-use super::card::{Card, SIDE, Session};
-use super::tally::{Exam, Question, Tally, Tracer};
+use super::adapter::{AdapterScene, AdapterTracer, SIDE};
+use super::ray_distribution::{self as distribution, RayDistribution, SurfacePoint, TestRay};
+use super::tally::{Check, Query, Tally, Tracer};
 use crate::stability::cell::Outcome;
 use crate::stability::limits::expected;
 
 /// A scene that is tried.
 #[derive(Debug, Clone, Copy)]
-pub enum Shard {
+pub enum TestScene {
     /// A stability case at one of its values.
     Case(&'static Case, f64),
     /// A scene of any kind, by seed.
@@ -25,30 +25,30 @@ pub enum Shard {
 
 /// Which scenes are tried: the stability cases first, at all values at which nothing but right is
 /// expected of the certified tree, then without end scenes of any kind.
-pub fn shards(seed: u64, quick: bool) -> impl Iterator<Item = Shard> {
+pub fn test_scenes(seed: u64, quick: bool) -> impl Iterator<Item = TestScene> {
     let of_case = move |case: &'static Case| {
         let values = if quick { case.quick } else { case.values };
         let holds = move |value: &f64| expected(CERTIFIED, case, *value) == Outcome::Right;
-        values.iter().copied().filter(holds).map(move |value| Shard::Case(case, value))
+        values.iter().copied().filter(holds).map(move |value| TestScene::Case(case, value))
     };
-    // Seeds beside each other have nothing in common, but ranges of them would overlap.
+    // Neighbouring seeds have nothing in common, but ranges of them would overlap.
     let first = seed << 32;
-    cases().iter().flat_map(of_case).chain((first..).map(Shard::Arbitrary))
+    cases().iter().flat_map(of_case).chain((first..).map(TestScene::Arbitrary))
 }
 
 const CERTIFIED: &str = "fbvh-certified";
 
-/// Every how many rays are asked of the adapter too, and every how many whether there is any hit.
+/// The adapter traces every so-many-th ray too; of these, and on the CPU, every so-many-th queries any hit.
 const ADAPTER_STEP: usize = 5;
 const ANY_HIT_STEP: usize = 4;
 
 /// Pixels of a picture.
 const PIXELS: usize = SIDE as usize * SIDE as usize;
 
-/// Points of the surface that tangents and exits set out from, at most.
-const MOST_ANCHORS: usize = 4096;
+/// Points of the surface that tangents and exits start from, at most.
+const MOST_SURFACE_POINTS: usize = 4096;
 
-impl Shard {
+impl TestScene {
     /// As records name it.
     pub fn name(&self) -> String {
         match self {
@@ -80,7 +80,7 @@ impl Shard {
             }
             Self::Arbitrary(seed) => {
                 let scene = arbitrary(*seed)?;
-                let camera = aim::camera(&scene, &mut Random::new(!seed));
+                let camera = distribution::camera(&scene, &mut Random::new(!seed));
                 let framing = || Camera::framing(&scene.bounds(), Vec3::ONE);
                 let camera = camera.unwrap_or_else(framing);
                 Ok((scene, camera))
@@ -93,17 +93,23 @@ impl Shard {
     ///
     /// # Errors
     /// When the tree cannot be built, or the device fails.
-    pub fn hold(&self, wanted: usize, card: Option<&mut Card<'_>>) -> anyhow::Result<Tally> {
+    pub fn check(
+        &self,
+        wanted: usize,
+        adapter: Option<&mut AdapterTracer<'_>>,
+    ) -> anyhow::Result<Tally> {
         let (scene, camera) = self.scene()?;
         let name = self.name();
         let oracle = Oracle::new(&scene);
         let tree = Tree::build(&scene, &Options::certified()).with_context(|| name.clone())?;
         let tracer = fbvh::Tracer::new(&tree, &scene);
-        let mut session =
-            card.map(|card| card.build(&scene)).transpose().with_context(|| name.clone())?;
+        let mut on_adapter = adapter
+            .map(|adapter| adapter.build(&scene))
+            .transpose()
+            .with_context(|| name.clone())?;
         let rays = self.rays(wanted, &scene);
 
-        let picture = Picture::new(camera, rays / 6, session.as_mut())?;
+        let picture = Picture::new(camera, rays / 6, on_adapter.as_mut())?;
         let mut random = Random::new(seed_of(&name));
         let rays = Rays::new((&scene, &tree, &oracle), picture.rays, rays, &mut random);
         let mut tally = Tally::default();
@@ -112,18 +118,18 @@ impl Shard {
             any_hits: tracer.any_hits(&rays.any()),
             exits: tracer.first_exits(&rays.exits())?,
         };
-        let exam = Exam {
-            shard: &name,
+        let check = Check {
+            test_scene: &name,
             scene: &scene,
             oracle: &oracle,
             tracer: Tracer::Cpu,
-            question: Question::FirstHit,
+            query: Query::FirstHit,
         };
-        rays.count(&exam, &answers, &mut tally);
-        if let Some(session) = &mut session {
-            let exam = Exam { tracer: Tracer::Adapter, ..exam };
-            rays.count_picture(&exam, &picture.hits, &mut tally);
-            rays.count_batch(&exam, |batch| session.answers(camera, batch), &mut tally)?;
+        rays.count(&check, &answers, &mut tally);
+        if let Some(on_adapter) = &mut on_adapter {
+            let check = Check { tracer: Tracer::Adapter, ..check };
+            rays.count_picture(&check, &picture.hits, &mut tally);
+            rays.count_batch(&check, |batch| on_adapter.answers(camera, batch), &mut tally)?;
         }
         Ok(tally)
     }
@@ -156,9 +162,13 @@ struct Picture {
 }
 
 impl Picture {
-    fn new(camera: Camera, most: usize, session: Option<&mut Session<'_>>) -> anyhow::Result<Self> {
-        let (rays, hits) = match session {
-            Some(session) => session.picture(camera)?,
+    fn new(
+        camera: Camera,
+        most: usize,
+        on_adapter: Option<&mut AdapterScene<'_>>,
+    ) -> anyhow::Result<Self> {
+        let (rays, hits) = match on_adapter {
+            Some(on_adapter) => on_adapter.picture(camera)?,
             None => (View::new(camera, SIDE, SIDE)?.rays(), Vec::new()),
         };
         let count = most.min(rays.len());
@@ -168,15 +178,15 @@ impl Picture {
     }
 }
 
-/// The rays of a shard with the truth about each: a picture's first, exits last.
+/// The rays of a test scene with the truth about each: a picture's first, exits last.
 struct Rays {
-    rays: Vec<(Aimed, Truth)>,
-    /// Where those of the picture end, and where those that seek the way out begin.
+    rays: Vec<(TestRay, Truth)>,
+    /// Where those of the picture end, and where those that seek an exit begin.
     free: usize,
     exits: usize,
 }
 
-/// What a tracer said: one answer to each of [`Rays::first`], [`Rays::any`] and [`Rays::exits`].
+/// What a tracer answered: one answer to each of [`Rays::first`], [`Rays::any`] and [`Rays::exits`].
 struct Answers {
     first_hits: Vec<Hit>,
     any_hits: Vec<Verdict>,
@@ -184,111 +194,108 @@ struct Answers {
 }
 
 impl Rays {
-    /// Aims about so many rays, the picture's among them.
+    /// About so many rays, the picture's among them.
     fn new(
         (scene, tree, oracle): (&Scene, &Tree, &Oracle<'_>),
         picture: Vec<Ray>,
         rays: usize,
         random: &mut Random,
     ) -> Self {
-        let ask = |aimed: Vec<Aimed>| {
-            let rays: Vec<_> = aimed.iter().map(|aimed| aimed.ray).collect();
-            aimed.into_iter().zip(oracle.first_hits(&rays)).collect::<Vec<_>>()
+        let with_truth = |made: Vec<TestRay>| {
+            let rays: Vec<_> = made.iter().map(|made| made.ray).collect();
+            made.into_iter().zip(oracle.first_hits(&rays)).collect::<Vec<_>>()
         };
         let free = picture.len();
-        let mut aimed: Vec<_> = picture.into_iter().map(aim::of_picture).collect();
+        let mut made: Vec<_> = picture.into_iter().map(distribution::of_picture).collect();
         if !scene.is_empty() {
-            aimed.extend((0..rays / 6).map(|_| aim::at_ball(scene, random)));
+            made.extend((0..rays / 6).map(|_| distribution::at_ball(scene, random)));
         }
-        let mut all = ask(aimed);
+        let mut all = with_truth(made);
 
-        let anchor = |(aimed, truth): &(Aimed, Truth)| Anchor::new(&aimed.ray, truth);
-        let anchors: Vec<_> = all.iter().filter_map(anchor).collect();
-        let anchors: Vec<_> =
-            anchors.iter().step_by(anchors.len().div_ceil(MOST_ANCHORS).max(1)).collect();
-        let mut aimed = Vec::new();
-        if !anchors.is_empty() {
-            aimed
-                .extend((0..rays / 3).map(|_| aim::along_surface(random.one_of(&anchors), random)));
+        let point = |(made, truth): &(TestRay, Truth)| SurfacePoint::new(&made.ray, truth);
+        let points: Vec<_> = all.iter().filter_map(point).collect();
+        let step = points.len().div_ceil(MOST_SURFACE_POINTS).max(1);
+        let points: Vec<_> = points.iter().step_by(step).collect();
+        let mut made = Vec::new();
+        if !points.is_empty() {
+            let tangent = |_| distribution::along_surface(random.one_of(&points), random);
+            made.extend((0..rays / 3).map(tangent));
         }
         if tree.leaf_count() > 0 && !tree.is_empty() {
-            aimed.extend((0..rays / 5).map(|_| aim::along_face(scene, tree, random)));
+            made.extend((0..rays / 5).map(|_| distribution::along_face(scene, tree, random)));
         }
-        let exits = all.len() + aimed.len();
-        if !anchors.is_empty() {
-            aimed.extend((0..rays / 8).map(|_| aim::way_out(random.one_of(&anchors), random)));
+        let exits = all.len() + made.len();
+        if !points.is_empty() {
+            let exit = |_| distribution::from_inside(random.one_of(&points), random);
+            made.extend((0..rays / 8).map(exit));
         }
-        all.extend(ask(aimed));
+        all.extend(with_truth(made));
         Self { rays: all, free, exits }
     }
 
-    fn rays_of(rays: &[(Aimed, Truth)]) -> impl Iterator<Item = Ray> {
-        rays.iter().map(|(aimed, _)| aimed.ray)
+    fn rays_of(rays: &[(TestRay, Truth)]) -> impl Iterator<Item = Ray> {
+        rays.iter().map(|(made, _)| made.ray)
     }
 
-    /// Those that are asked where they first hit: all.
+    /// Those whose first hit is queried: all.
     fn first(&self) -> Vec<Ray> {
         Self::rays_of(&self.rays).collect()
     }
 
-    /// Those that are asked whether there is any hit.
+    /// Those of which any hit is queried.
     fn any(&self) -> Vec<Ray> {
         Self::rays_of(&self.rays[..self.exits]).step_by(ANY_HIT_STEP).collect()
     }
 
-    /// Those that are asked for the way out.
+    /// Those whose exit is queried.
     fn exits(&self) -> Vec<Ray> {
         Self::rays_of(&self.rays[self.exits..]).collect()
     }
 
-    /// Counts a tracer's answers to all questions.
-    fn count(&self, exam: &Exam<'_>, answers: &Answers, tally: &mut Tally) {
-        for ((aimed, truth), hit) in self.rays.iter().zip(&answers.first_hits) {
-            tally.count(&Exam { question: Question::FirstHit, ..*exam }, aimed, truth, hit);
+    /// Counts a tracer's answers to all queries.
+    fn count(&self, check: &Check<'_>, answers: &Answers, tally: &mut Tally) {
+        for ((ray, truth), hit) in self.rays.iter().zip(&answers.first_hits) {
+            tally.count(&Check { query: Query::FirstHit, ..*check }, ray, truth, hit);
         }
         let any = self.rays[..self.exits].iter().step_by(ANY_HIT_STEP);
-        for ((aimed, truth), &verdict) in any.zip(&answers.any_hits) {
+        for ((ray, truth), &verdict) in any.zip(&answers.any_hits) {
             let hit = Hit { verdict, ..Hit::MISS };
-            tally.count(&Exam { question: Question::AnyHit, ..*exam }, aimed, truth, &hit);
+            tally.count(&Check { query: Query::AnyHit, ..*check }, ray, truth, &hit);
         }
-        for ((aimed, truth), hit) in self.rays[self.exits..].iter().zip(&answers.exits) {
-            tally.count(&Exam { question: Question::Exit, ..*exam }, aimed, truth, hit);
+        for ((ray, truth), hit) in self.rays[self.exits..].iter().zip(&answers.exits) {
+            tally.count(&Check { query: Query::Exit, ..*check }, ray, truth, hit);
         }
     }
 
     /// Counts the hits of a picture.
-    fn count_picture(&self, exam: &Exam<'_>, hits: &[Hit], tally: &mut Tally) {
-        for ((aimed, truth), hit) in self.rays[..self.free].iter().zip(hits) {
-            tally.count(&Exam { question: Question::FirstHit, ..*exam }, aimed, truth, hit);
+    fn count_picture(&self, check: &Check<'_>, hits: &[Hit], tally: &mut Tally) {
+        for ((ray, truth), hit) in self.rays[..self.free].iter().zip(hits) {
+            tally.count(&Check { query: Query::FirstHit, ..*check }, ray, truth, hit);
         }
     }
 
-    /// Asks some of the free rays as one batch, each its own question, and counts the answers.
+    /// Traces some of the free rays as one batch, each with its own query, and counts the answers.
     fn count_batch(
         &self,
-        exam: &Exam<'_>,
+        check: &Check<'_>,
         mut answer: impl FnMut(&[FreeRay]) -> anyhow::Result<Vec<Hit>>,
         tally: &mut Tally,
     ) -> anyhow::Result<()> {
         let some: Vec<_> =
             self.rays[self.free..].iter().step_by(ADAPTER_STEP).take(PIXELS).collect();
-        let question = |index: usize, aimed: &Aimed| match aimed.aim {
-            Aim::Exit => RayQuery::Exit,
+        let query = |index: usize, ray: &TestRay| match ray.distribution {
+            RayDistribution::Exit => RayQuery::Exit,
             _ if index.is_multiple_of(ANY_HIT_STEP) => RayQuery::AnyHit,
             _ => RayQuery::FirstHit,
         };
-        let ask = |(index, (aimed, _)): (usize, &&(Aimed, Truth))| {
-            FreeRay::new(&aimed.ray, question(index, aimed))
+        let free = |(index, (ray, _)): (usize, &&(TestRay, Truth))| {
+            FreeRay::new(&ray.ray, query(index, ray))
         };
-        let batch: Vec<_> = some.iter().enumerate().map(ask).collect();
+        let batch: Vec<_> = some.iter().enumerate().map(free).collect();
         let hits = answer(&batch)?;
-        for (index, ((aimed, truth), hit)) in some.iter().zip(&hits).enumerate() {
-            let question = match question(index, aimed) {
-                RayQuery::FirstHit => Question::FirstHit,
-                RayQuery::AnyHit => Question::AnyHit,
-                RayQuery::Exit => Question::Exit,
-            };
-            tally.count(&Exam { question, ..*exam }, aimed, truth, hit);
+        for (index, ((ray, truth), hit)) in some.iter().zip(&hits).enumerate() {
+            let query = query(index, ray).into();
+            tally.count(&Check { query, ..*check }, ray, truth, hit);
         }
         Ok(())
     }
@@ -302,7 +309,7 @@ mod tests {
     use harness::fronts::WRONG_FRONT;
 
     /// A scene of seed 3 with its rays and the answers of its own tree.
-    struct Trial {
+    struct Sample {
         scene: Scene,
         rays: Rays,
         answers: Answers,
@@ -318,23 +325,23 @@ mod tests {
         }
     }
 
-    fn trial() -> Trial {
-        let (scene, camera) = Shard::Arbitrary(3).scene().expect("legal");
+    fn sample() -> Sample {
+        let (scene, camera) = TestScene::Arbitrary(3).scene().expect("legal");
         let tree = Tree::build(&scene, &Options::certified()).expect("a tree");
         let picture = Picture::new(camera, 500, None).expect("a view");
         let oracle = Oracle::new(&scene);
         let rays = Rays::new((&scene, &tree, &oracle), picture.rays, 3000, &mut Random::new(1));
         let answers = answers(&scene, &rays);
-        Trial { scene, rays, answers }
+        Sample { scene, rays, answers }
     }
 
     /// Wrong answers, and the sum of squares of relative errors.
-    fn verdict(trial: &Trial, answers: &Answers) -> (u64, f64) {
-        let oracle = Oracle::new(&trial.scene);
-        let (shard, scene, oracle) = ("trial", &trial.scene, &oracle);
-        let (tracer, question) = (Tracer::Cpu, Question::FirstHit);
+    fn verdict(sample: &Sample, answers: &Answers) -> (u64, f64) {
+        let oracle = Oracle::new(&sample.scene);
+        let (test_scene, scene, oracle) = ("sample", &sample.scene, &oracle);
+        let (tracer, query) = (Tracer::Cpu, Query::FirstHit);
         let mut tally = Tally::default();
-        trial.rays.count(&Exam { shard, scene, oracle, tracer, question }, answers, &mut tally);
+        sample.rays.count(&Check { test_scene, scene, oracle, tracer, query }, answers, &mut tally);
         let wrong: u64 = tally.counts.values().map(|count| count.wrong).sum();
         assert_eq!(tally.wrong.len() as u64, wrong.min(200));
         (wrong, tally.errors.values().map(|errors| errors.squares).sum())
@@ -342,23 +349,23 @@ mod tests {
 
     #[test]
     fn a_tree_is_right_and_a_spoilt_one_is_not() {
-        let trial = trial();
-        let right = verdict(&trial, &trial.answers);
+        let sample = sample();
+        let right = verdict(&sample, &sample.answers);
         assert_eq!(right.0, 0);
 
         // The tree without its first ball: leaves are missing or short of a ball.
-        let balls = trial.scene.balls().skip(1);
-        let without = Scene::new(balls, trial.scene.kernel(), trial.scene.threshold());
+        let balls = sample.scene.balls().skip(1);
+        let without = Scene::new(balls, sample.scene.kernel(), sample.scene.threshold());
         let without = without.expect("legal");
-        assert!(verdict(&trial, &answers(&without, &trial.rays)).0 > 0, "a ball is missing");
+        assert!(verdict(&sample, &answers(&without, &sample.rays)).0 > 0, "a ball is missing");
 
         let spoilt = |spoil: fn(&mut Hit, &Truth)| {
-            let mut answers = answers(&trial.scene, &trial.rays);
-            let truths = trial.rays.rays.iter().map(|(_, truth)| truth);
+            let mut answers = answers(&sample.scene, &sample.rays);
+            let truths = sample.rays.rays.iter().map(|(_, truth)| truth);
             for (hit, truth) in answers.first_hits.iter_mut().zip(truths) {
                 spoil(hit, truth);
             }
-            verdict(&trial, &answers)
+            verdict(&sample, &answers)
         };
         let nudged = spoilt(|hit, _| hit.t *= 1.0 + 1e-4);
         assert!(nudged.1 > 1e3 * right.1, "{nudged:?}, {right:?}");
@@ -367,32 +374,32 @@ mod tests {
         assert!(shifted.0 > 0, "on another front");
         assert!(spoilt(|hit, _| *hit = Hit::MISS).0 > 0, "nothing is hit");
 
-        let mut answers = answers(&trial.scene, &trial.rays);
+        let mut answers = answers(&sample.scene, &sample.rays);
         answers.any_hits.rotate_right(1);
-        assert!(verdict(&trial, &answers).0 > 0, "answers to other rays");
+        assert!(verdict(&sample, &answers).0 > 0, "answers to other rays");
         answers.any_hits.rotate_left(1);
         answers.exits.rotate_right(1);
-        assert!(verdict(&trial, &answers).0 > 0, "ways out of other rays");
+        assert!(verdict(&sample, &answers).0 > 0, "exits of other rays");
     }
 
     #[test]
-    fn a_batch_is_held_ray_by_ray() {
-        let trial = trial();
-        let oracle = Oracle::new(&trial.scene);
-        let tree = Tree::build(&trial.scene, &Options::certified()).expect("a tree");
-        let tracer = fbvh::Tracer::new(&tree, &trial.scene);
+    fn a_batch_is_checked_ray_by_ray() {
+        let sample = sample();
+        let oracle = Oracle::new(&sample.scene);
+        let tree = Tree::build(&sample.scene, &Options::certified()).expect("a tree");
+        let tracer = fbvh::Tracer::new(&tree, &sample.scene);
         let answer = |free: &FreeRay| match free.query().expect("asked") {
             RayQuery::Exit => tracer.first_exit(&free.ray()).expect("certified"),
             RayQuery::FirstHit => tracer.first_hit(&free.ray()),
             RayQuery::AnyHit => Hit { verdict: tracer.any_hit(&free.ray()), ..Hit::MISS },
         };
         let wrong = |turned: usize| {
-            let exam = Exam {
-                shard: "trial",
-                scene: &trial.scene,
+            let check = Check {
+                test_scene: "sample",
+                scene: &sample.scene,
                 oracle: &oracle,
                 tracer: Tracer::Adapter,
-                question: Question::FirstHit,
+                query: Query::FirstHit,
             };
             let mut tally = Tally::default();
             let answers = |batch: &[FreeRay]| {
@@ -400,9 +407,9 @@ mod tests {
                 hits.rotate_right(turned);
                 Ok(hits)
             };
-            trial.rays.count_batch(&exam, answers, &mut tally).expect("counted");
-            let questions: BTreeSet<_> = tally.counts.keys().map(|key| key.question).collect();
-            assert_eq!(questions.len(), 3);
+            sample.rays.count_batch(&check, answers, &mut tally).expect("counted");
+            let queries: BTreeSet<_> = tally.counts.keys().map(|key| key.query).collect();
+            assert_eq!(queries.len(), 3);
             tally.counts.values().map(|count| count.wrong).sum::<u64>()
         };
         assert_eq!(wrong(0), 0);
@@ -410,27 +417,29 @@ mod tests {
     }
 
     #[test]
-    fn aims_are_met() {
-        let trial = trial();
-        let near = |aim: Aim| {
-            let aimed = || trial.rays.rays.iter().filter(|(aimed, _)| aimed.aim == aim);
-            let near = aimed().filter(|(aimed, truth)| aimed.is_near(truth)).count();
-            near as f64 / aimed().count() as f64
+    fn rays_are_as_near_as_meant() {
+        let sample = sample();
+        let near = |distribution: RayDistribution| {
+            let of_it = |(ray, _): &&(TestRay, Truth)| ray.distribution == distribution;
+            let made = || sample.rays.rays.iter().filter(of_it);
+            let near = made().filter(|(ray, truth)| ray.is_near(truth)).count();
+            near as f64 / made().count() as f64
         };
-        assert!(near(Aim::Tangent) > 0.3, "{}", near(Aim::Tangent));
-        assert!(near(Aim::Face) > 0.6, "{}", near(Aim::Face));
-        let exits = &trial.rays.rays[trial.rays.exits..];
+        assert!(near(RayDistribution::Tangent) > 0.3, "{}", near(RayDistribution::Tangent));
+        assert!(near(RayDistribution::Face) > 0.6, "{}", near(RayDistribution::Face));
+        let exits = &sample.rays.rays[sample.rays.exits..];
         let inside = exits.iter().filter(|(_, truth)| truth.verdict == Verdict::Inside).count();
         assert!(inside * 10 > exits.len() * 9, "{inside} of {}", exits.len());
     }
 
     #[test]
-    fn shards_begin_with_the_cases_and_do_not_end() {
-        let all: Vec<_> = shards(1, false).take(400).map(|shard| shard.name()).collect();
+    fn test_scenes_begin_with_the_cases_and_do_not_end() {
+        let all: Vec<_> = test_scenes(1, false).take(400).map(|scene| scene.name()).collect();
         assert!(all.contains(&"coincident=4096".to_owned()));
         assert!(!all.contains(&"distance=1000000".to_owned()), "beyond the stated limits");
         assert_eq!(all.last().map(|name| name.starts_with("arbitrary(")), Some(true));
-        let first = |seed| shards(seed, true).find(|shard| matches!(shard, Shard::Arbitrary(_)));
-        assert_ne!(first(1).map(|shard| shard.name()), first(2).map(|shard| shard.name()));
+        let first =
+            |seed| test_scenes(seed, true).find(|scene| matches!(scene, TestScene::Arbitrary(_)));
+        assert_ne!(first(1).map(|scene| scene.name()), first(2).map(|scene| scene.name()));
     }
 }
