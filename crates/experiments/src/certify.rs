@@ -11,7 +11,6 @@ pub mod record;
 pub mod tally;
 pub mod test_scene;
 
-use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -21,7 +20,8 @@ use self::adapter::AdapterTracer;
 use self::record::{Certificate, DISTANCES, SCALES};
 use self::tally::{Category, Count, ErrorClass, Tracer};
 use self::test_scene::{TestScene, test_scenes};
-use crate::console::{self, ProgressBar, table};
+use crate::console::{self, ProgressBar, open_adapter, table};
+use crate::unfinished;
 use harness::numbers::{grouped, small};
 
 /// What to hold against the oracle.
@@ -56,24 +56,19 @@ const SECONDS_OF_GROUP: f64 = 10.0;
 /// When there is a shortfall, of which the first wrong answers are printed in full; without the adapter;
 /// when the device fails, or a file cannot be written.
 pub fn certify(options: &Options) -> anyhow::Result<()> {
-    let gpu = options.adapter.as_ref().map(Gpu::new).transpose()?;
-    if let Some(gpu) = &gpu {
-        console::note(&gpu.report().to_string());
-    }
-    let unfinished = options.out.join("unfinished.json");
+    let gpu = options.adapter.as_ref().map(open_adapter).transpose()?;
+    let unfinished_path = options.out.join("unfinished.json");
     let fresh = Certificate::fresh(gpu.as_ref());
-    let left = fresh.unfinished(&unfinished);
+    let left = fresh.unfinished(&unfinished_path);
     if left.is_some() {
         console::note("Continuing an interrupted run.");
     }
     let certificate =
-        run(options, gpu.as_ref(), left.unwrap_or(fresh), |state| state.write(&unfinished))?;
+        run(options, gpu.as_ref(), left.unwrap_or(fresh), |state| state.write(&unfinished_path))?;
 
     let path = options.out.join("certify.json");
     certificate.write(&path)?;
-    if let Err(error) = fs::remove_file(&unfinished) {
-        console::note(&format!("{}: {error}", unfinished.display()));
-    }
+    unfinished::remove(&unfinished_path);
     console::line(&summary(&certificate));
     console::line(&format!("\n{}", path.display()));
     let shortfalls = certificate.shortfalls(options.rays);

@@ -21,3 +21,4 @@ pub mod table;
 pub mod tables;
 #[cfg(test)]
 mod testing;
+mod unfinished;

@@ -1,24 +1,26 @@
 //! The command `stability`: cases with a parameter that is turned until a method breaks, and whether
-//! the method says so.
+//! the method reports it.
 
-pub mod cell;
+pub mod case_result;
+pub mod fixture;
 pub mod limits;
+pub mod outcome;
 mod page;
-mod patience;
 pub mod record;
-pub mod stand;
+mod skipping;
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use bench_scenes::{Case, cases};
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
-use self::cell::{Cell, Outcome};
-use self::patience::rests;
+use self::case_result::CaseResult;
+use self::fixture::Fixture;
+use self::outcome::Outcome;
 use self::record::{Limit, SCHEMA, Stability};
-use self::stand::Stand;
+use self::skipping::reason_to_skip;
 use crate::console::{self, ProgressBar, open_adapter, table};
+use crate::unfinished;
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
 use harness::machine::Provenance;
@@ -59,13 +61,13 @@ pub fn stability(options: &Options) -> anyhow::Result<()> {
         provenance: Provenance::here(SCHEMA),
         adapter: gpu.report().into(),
         limits: Vec::new(),
-        cells: Vec::new(),
+        results: Vec::new(),
     };
-    let unfinished = options.out.join("unfinished.json");
-    let left = stability.unfinished(&unfinished).unwrap_or_default();
-    climb(&gpu, options.quick, (&chosen, &methods), left, |cells| {
-        stability.cells = cells.to_vec();
-        stability.write(&unfinished)
+    let unfinished_path = options.out.join("unfinished.json");
+    let left = stability.unfinished(&unfinished_path).unwrap_or_default();
+    run_cases(&gpu, options.quick, (&chosen, &methods), left, |results| {
+        stability.results = results.to_vec();
+        stability.write(&unfinished_path)
     })?;
 
     let limit_of = |case: &&Case, method: &Configuration| {
@@ -77,7 +79,7 @@ pub fn stability(options: &Options) -> anyhow::Result<()> {
     let page = options.out.join("index.html");
     stability.write(&options.out.join("records.json"))?;
     write_atomically(&page, page::page(&stability, &chosen, &methods).as_bytes())?;
-    remove(&unfinished);
+    unfinished::remove(&unfinished_path);
     console::line(&format!("\n{}", page.display()));
     Ok(())
 }
@@ -87,46 +89,39 @@ fn values(case: &Case, quick: bool) -> &'static [f64] {
     if quick { case.quick } else { case.values }
 }
 
-/// Tries all values of all cases; `keep` is told of all cells after every value.
-fn climb(
+/// Runs all values of all cases; calls `keep` with all results after every value.
+fn run_cases(
     gpu: &Gpu,
     quick: bool,
     (cases, methods): (&[&'static Case], &[Configuration]),
-    mut cells: Vec<Cell>,
-    mut keep: impl FnMut(&[Cell]) -> anyhow::Result<()>,
+    mut results: Vec<CaseResult>,
+    mut keep: impl FnMut(&[CaseResult]) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     let steps: usize = cases.iter().map(|case| values(case, quick).len()).sum();
     let progress = ProgressBar::new(steps as u64);
-    if !cells.is_empty() {
-        progress.note("Going on where an interrupted run has stopped.");
+    if !results.is_empty() {
+        progress.note("Continuing an interrupted run.");
     }
-    let mut stand = Stand::new(gpu, methods.iter().cloned());
+    let mut fixture = Fixture::new(gpu, methods.iter().cloned());
     let mut done = 0;
     for case in cases {
         progress.stage(case.name.to_owned());
         for &value in values(case, quick) {
             done += 1;
-            let is_here = |cell: &Cell| cell.case == case.name && cell.value == value;
-            if cells.iter().any(is_here) {
+            let is_here = |result: &CaseResult| result.case == case.name && result.value == value;
+            if results.iter().any(is_here) {
                 progress.skip(done);
             } else {
-                let easier = || cells.iter().filter(|cell| cell.case == case.name);
-                let tried =
-                    stand.attempt(case, value, |configuration| rests(easier(), configuration))?;
-                cells.extend(tried);
-                keep(&cells)?;
+                let easier = || results.iter().filter(|result| result.case == case.name);
+                let found = fixture
+                    .run(case, value, |configuration| reason_to_skip(easier(), configuration))?;
+                results.extend(found);
+                keep(&results)?;
                 progress.reach(done);
             }
         }
     }
     Ok(())
-}
-
-/// A file that may well be gone already.
-fn remove(path: &Path) {
-    if let Err(error) = fs::remove_file(path) {
-        console::note(&format!("{}: {error}", path.display()));
-    }
 }
 
 /// The limits as text: one line a case, one column a method.
@@ -138,7 +133,7 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) ->
             stability.limit(case.name, &method.name).map_or_else(String::new, |limit| {
                 let value =
                     limit.fails_at.map_or_else(String::new, |value| format!(" {}", tick(value)));
-                format!("{}{value}", limit.first.word())
+                format!("{}{value}", limit.first.name())
             })
         };
         let cells = methods.iter().map(limit);
@@ -149,15 +144,16 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) ->
     let (mut unexpected, mut count) = (String::new(), 0);
     for limit in &stability.limits {
         for value in &limit.unexpected {
-            let cell = stability.of(&limit.case, &limit.method).find(|cell| cell.value == *value);
-            let found = cell.map_or(Outcome::Right, |cell| cell.outcome);
-            let note = cell.and_then(|cell| cell.note.clone()).unwrap_or_default();
+            let result =
+                stability.of(&limit.case, &limit.method).find(|result| result.value == *value);
+            let found = result.map_or(Outcome::Right, |result| result.outcome);
+            let note = result.and_then(|result| result.note.clone()).unwrap_or_default();
             unexpected += &format!(
                 "\n  {}, {} = {}: {} {note}",
                 limit.method,
                 limit.case,
                 tick(*value),
-                found.word()
+                found.name()
             );
             count += 1;
         }
@@ -165,9 +161,10 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) ->
     let tried = stability.tried();
     text += &format!("\n\n{} of {tried} outcomes are as stated", tried - count);
     text += &unexpected;
-    for cell in stability.of_outcome(Outcome::Untried) {
-        let reason = cell.note.as_deref().unwrap_or_default();
-        text += &format!("\n  {}, {} = {}: {reason}", cell.method, cell.case, tick(cell.value));
+    for result in stability.of_outcome(Outcome::Untried) {
+        let reason = result.note.as_deref().unwrap_or_default();
+        text +=
+            &format!("\n  {}, {} = {}: {reason}", result.method, result.case, tick(result.value));
     }
     text
 }

@@ -2,9 +2,10 @@
 //! else, and reports it where it is stated to.
 
 use bench_scenes::cases;
-use experiments::stability::cell::{Cell, Outcome};
+use experiments::stability::case_result::CaseResult;
+use experiments::stability::fixture::Fixture;
 use experiments::stability::limits::expected;
-use experiments::stability::stand::Stand;
+use experiments::stability::outcome::Outcome;
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
 use libtest_mimic::{Failed, Trial};
@@ -30,12 +31,12 @@ pub(super) fn trials() -> Vec<Trial> {
 }
 
 fn is_as_stated(gpu: &Gpu, configuration: &Configuration) -> Result<(), Failed> {
-    let mut stand = Stand::new(gpu, [configuration.clone()]);
+    let mut fixture = Fixture::new(gpu, [configuration.clone()]);
     let mut wrong = String::new();
     for case in cases() {
         for &value in case.quick {
             let needed = expected(&configuration.name, case, value);
-            for found in stand.attempt(case, value, |_| None)? {
+            for found in fixture.run(case, value, |_| None)? {
                 if found.outcome != needed {
                     wrong += &format!("\n  needed {needed:?}, found {found:?}");
                 }
@@ -58,11 +59,11 @@ const LARGEST: &[(&str, &[&str])] = &[
 fn is_as_stated_in_the_largest(gpu: &Gpu, name: &str, known: &[&str]) -> Result<(), Failed> {
     let configuration =
         stability_configurations().into_iter().find(|configuration| configuration.name == name);
-    let mut stand = Stand::new(gpu, [configuration.ok_or("no such configuration")?]);
+    let mut fixture = Fixture::new(gpu, [configuration.ok_or("no such configuration")?]);
     for case in cases().iter().filter(|case| known.contains(&case.name)) {
         let most = *case.values.last().ok_or("a case without values")?;
         let needed = expected(name, case, most);
-        for found in stand.attempt(case, most, |_| None)? {
+        for found in fixture.run(case, most, |_| None)? {
             if found.outcome != needed || found.clear == 0 {
                 return Err(format!("needed {needed:?}, found {found:?}").into());
             }
@@ -79,13 +80,13 @@ fn notices_a_broken_promise(gpu: &Gpu) -> Result<(), Failed> {
     let published = find("kanamori").ok_or("no configuration is called kanamori")?;
     let case = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
     let outcome = |terms| -> Result<Vec<Outcome>, Failed> {
-        let stand = &mut Stand::holding(gpu, [(published.clone(), terms)]);
-        let cells: Vec<Cell> = stand.attempt(case, 2.0, |_| None)?;
-        Ok(cells.iter().map(|cell| cell.outcome).collect())
+        let fixture = &mut Fixture::holding(gpu, [(published.clone(), terms)]);
+        let results: Vec<CaseResult> = fixture.run(case, 2.0, |_| None)?;
+        Ok(results.iter().map(|result| result.outcome).collect())
     };
     let found = (outcome(terms_of("kanamori")?)?, outcome(terms_of("kanamori-robust")?)?);
-    if found != (vec![Outcome::Lost], vec![Outcome::Broken]) {
-        return Err(format!("needed Lost, then Broken, found {found:?}").into());
+    if found != (vec![Outcome::SilentlyWrong], vec![Outcome::Broken]) {
+        return Err(format!("needed SilentlyWrong, then Broken, found {found:?}").into());
     }
     Ok(())
 }

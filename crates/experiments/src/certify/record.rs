@@ -1,6 +1,5 @@
 //! `certify.json`: what was counted, and whether it is enough.
 
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ray_distribution::RayDistribution;
 use super::tally::{Category, Count, ErrorClass, Errors, Query, Tally, Tracer, Wrong};
+use crate::unfinished;
 use harness::machine::Provenance;
 use harness::output::write_json;
 use harness::record::Adapter;
@@ -216,7 +216,7 @@ impl Certificate {
 
     /// Reads what an interrupted run has left, if it is of the same program, command and adapter.
     pub fn unfinished(&self, path: &Path) -> Option<Self> {
-        let left: Self = serde_json::from_str(&fs::read_to_string(path).ok()?).ok()?;
+        let left: Self = unfinished::read(path)?;
         let is_same = left.provenance == self.provenance && left.adapter == self.adapter;
         is_same.then_some(left)
     }

@@ -11,8 +11,8 @@ use metaball_core::{Camera, Hit, Ray, Scene, Verdict, View};
 use super::adapter::{AdapterScene, AdapterTracer, SIDE};
 use super::ray_distribution::{self as distribution, RayDistribution, SurfacePoint, TestRay};
 use super::tally::{Check, Query, Tally, Tracer};
-use crate::stability::cell::Outcome;
 use crate::stability::limits::expected;
+use crate::stability::outcome::Outcome;
 
 /// A scene that is tried.
 #[derive(Debug, Clone, Copy)]

@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use bench_scenes::Case;
 
-use super::cell::{Cell, Outcome};
-use super::patience::PATIENCE_S;
+use super::case_result::CaseResult;
+use super::outcome::Outcome;
 use super::record::{Limit, Stability};
+use super::skipping::TIME_LIMIT_S;
 use crate::html::escape;
 use crate::page::{self, remark_paragraphs, run_facts};
 use harness::configuration::Configuration;
@@ -44,7 +45,7 @@ fn remarks(stability: &Stability) -> Vec<String> {
     }
     if stability.of_outcome(Outcome::Untried).next().is_some() {
         remarks.push(format!(
-            "A published method that took more than {PATIENCE_S} s at one value of a case is not run \
+            "A published method that took more than {TIME_LIMIT_S} s at one value of a case is not run \
              at the harder ones: nothing is known there. Methods that promise to be right everywhere \
              always are."
         ));
@@ -60,11 +61,13 @@ fn meaning(outcome: Outcome) -> &'static str {
         Outcome::Untried => {
             "not run, since the method took too long at an easier value: nothing is known"
         }
-        Outcome::Told => {
-            "not every ray has its own answer, and the method says so: marked pixels, \
+        Outcome::Reported => {
+            "not every ray has its own answer, and the method reports it: marked pixels, \
                           or a refusal with its reason"
         }
-        Outcome::Lost => "rays wrong and not marked, where the method's paper promises nothing",
+        Outcome::SilentlyWrong => {
+            "rays wrong and not marked, where the method's paper promises nothing"
+        }
         Outcome::Broken => "rays wrong and not marked, where the method promises to be right",
     }
 }
@@ -74,7 +77,7 @@ fn legend() -> String {
         format!(
             "<li>{}<b>{}</b>: {}</li>\n",
             strip([(outcome, String::new(), false)]),
-            outcome.word(),
+            outcome.name(),
             meaning(outcome)
         )
     };
@@ -132,9 +135,9 @@ fn limit_cell(stability: &Stability, case: &Case, configuration: &Configuration)
     let Some(limit) = stability.limit(case.name, &configuration.name) else {
         return "<td></td>".to_owned();
     };
-    let squares = stability.of(case.name, &configuration.name).map(|cell| {
-        let is_unexpected = limit.unexpected.contains(&cell.value);
-        (cell.outcome, title(cell), is_unexpected)
+    let squares = stability.of(case.name, &configuration.name).map(|result| {
+        let is_unexpected = limit.unexpected.contains(&result.value);
+        (result.outcome, title(result), is_unexpected)
     });
     let (class, text) = from(limit);
     format!("<td class=\"{class}\">{text}{}</td>", strip(squares))
@@ -148,7 +151,7 @@ fn from(limit: &Limit) -> (&'static str, String) {
 /// Width and height of a square, and its distance from the next.
 const SQUARE: (f64, f64, f64) = (7.0, 11.0, 8.5);
 
-/// Squares from left to right, told apart by lightness and by sign. Where one is underlined it is not
+/// Squares from left to right, distinguished by lightness and by sign. Where one is underlined it is not
 /// what was stated.
 fn strip(squares: impl IntoIterator<Item = (Outcome, String, bool)>) -> String {
     let (width, height, step) = SQUARE;
@@ -184,13 +187,13 @@ fn fill_of(outcome: Outcome) -> &'static str {
         Outcome::Right => "#e3eff8",
         Outcome::Coarse => "#9cc4e4",
         Outcome::Untried => "#ffffff",
-        Outcome::Told => "#f5d76e",
-        Outcome::Lost => "#d55e00",
+        Outcome::Reported => "#f5d76e",
+        Outcome::SilentlyWrong => "#d55e00",
         Outcome::Broken => "#33102f",
     }
 }
 
-/// What tells an outcome where there is no colour at all.
+/// What shows an outcome where there is no colour at all.
 fn sign(outcome: Outcome, x: f64) -> String {
     let (path, stroke) = match outcome {
         Outcome::Right => return String::new(),
@@ -198,18 +201,18 @@ fn sign(outcome: Outcome, x: f64) -> String {
         Outcome::Untried => {
             (format!("M{} 4h1M{} 6h1M{} 8h1", x + 3.0, x + 3.0, x + 3.0), "#57606a")
         }
-        Outcome::Told => (format!("M{} 9.5L{} 2.5", x + 1.0, x + 6.0), "#6b5500"),
-        Outcome::Lost => (format!("M{} 6h3", x + 2.0), "#fff"),
+        Outcome::Reported => (format!("M{} 9.5L{} 2.5", x + 1.0, x + 6.0), "#6b5500"),
+        Outcome::SilentlyWrong => (format!("M{} 6h3", x + 2.0), "#fff"),
         Outcome::Broken => (format!("M{x} 3l5 6M{x} 9l5 -6", x = x + 1.0), "#fff"),
     };
-    let width = if outcome == Outcome::Lost { 3.0 } else { 1.2 };
+    let width = if outcome == Outcome::SilentlyWrong { 3.0 } else { 1.2 };
     format!("<path d=\"{path}\" stroke=\"{stroke}\" stroke-width=\"{width}\"/>")
 }
 
-/// A cell in words.
-fn title(cell: &Cell) -> String {
-    let mut text = format!("{}: {}", tick(cell.value), cell.outcome.word());
-    if let Some(note) = &cell.note {
+/// A result in words.
+fn title(result: &CaseResult) -> String {
+    let mut text = format!("{}: {}", tick(result.value), result.outcome.name());
+    if let Some(note) = &result.note {
         let _ = write!(text, ": {note}");
     }
     text
@@ -218,24 +221,24 @@ fn title(cell: &Cell) -> String {
 /// A case with every number.
 fn section(stability: &Stability, case: &Case, configurations: &[Configuration]) -> String {
     let Some(first) = configurations.first() else { return String::new() };
-    let row = |of_first: &Cell| {
+    let row = |of_first: &CaseResult| {
         let cells: String = configurations
             .iter()
             .map(|configuration| {
                 let mut of_configuration = stability.of(case.name, &configuration.name);
                 of_configuration
-                    .find(|cell| cell.value == of_first.value)
+                    .find(|result| result.value == of_first.value)
                     .map_or_else(|| "<td></td>".to_owned(), value_cell)
             })
             .collect();
         // A method that refuses has judged no ray.
-        let judged = stability.cells.iter().find(|cell| {
-            cell.case == case.name
-                && cell.value == of_first.value
-                && cell.clear + cell.ambiguous > 0
+        let judged = stability.results.iter().find(|result| {
+            result.case == case.name
+                && result.value == of_first.value
+                && result.clear + result.ambiguous > 0
         });
-        let rays =
-            judged.map_or_else(String::new, |cell| format!("{} + {}", cell.clear, cell.ambiguous));
+        let rays = judged
+            .map_or_else(String::new, |result| format!("{} + {}", result.clear, result.ambiguous));
         format!("<tr><th>{}</th><td>{rays}</td>{cells}</tr>\n", tick(of_first.value))
     };
     let rows: String = stability.of(case.name, &first.name).map(row).collect();
@@ -249,23 +252,28 @@ fn section(stability: &Stability, case: &Case, configurations: &[Configuration])
     )
 }
 
-fn value_cell(cell: &Cell) -> String {
+fn value_cell(result: &CaseResult) -> String {
     let mut parts = Vec::new();
-    for (count, word) in [(cell.broken, "broken"), (cell.lost, "lost"), (cell.told, "told")] {
+    for (count, word) in [
+        (result.broken, "broken"),
+        (result.silently_wrong, "silently wrong"),
+        (result.reported, "reported"),
+    ] {
         if count > 0 {
             parts.push(format!("{count} {word}"));
         }
     }
-    if let Some(differing) = cell.differing {
+    if let Some(differing) = result.differing {
         parts.push(format!("{differing} differ"));
     }
-    if is_refusal(cell) {
+    if is_refusal(result) {
         parts.push("refused".to_owned());
     } else if parts.is_empty() {
-        parts.push(cell.outcome.word().to_owned());
+        parts.push(result.outcome.name().to_owned());
     }
-    let error = cell.error.map_or_else(String::new, |error| small(error.p99));
-    let (class, title) = (cell.outcome.word(), escape(&title(cell)));
+    let error = result.error.map_or_else(String::new, |error| small(error.p99));
+    let class = result.outcome.name().replace(' ', "-");
+    let title = escape(&title(result));
     format!(
         "<td class=\"{class}\" title=\"{title}\">{}<small>{error}</small></td>",
         parts.join("<br>")
@@ -273,23 +281,28 @@ fn value_cell(cell: &Cell) -> String {
 }
 
 /// Whether a method was run and drew nothing.
-fn is_refusal(cell: &Cell) -> bool {
-    cell.outcome == Outcome::Told && cell.clear + cell.ambiguous == 0
+fn is_refusal(result: &CaseResult) -> bool {
+    result.outcome == Outcome::Reported && result.clear + result.ambiguous == 0
 }
 
 /// The reasons of refusals, and of what was not run, each once.
 fn notes(stability: &Stability) -> String {
-    let list = |title: &str, cells: &mut dyn Iterator<Item = &Cell>, who: fn(&Cell) -> String| {
-        let mut reasons: Vec<_> = cells
-            .filter_map(|cell| Some(format!("{}: {}", who(cell), cell.note.as_ref()?)))
+    let list = |title: &str,
+                results: &mut dyn Iterator<Item = &CaseResult>,
+                who: fn(&CaseResult) -> String| {
+        let mut reasons: Vec<_> = results
+            .filter_map(|result| Some(format!("{}: {}", who(result), result.note.as_ref()?)))
             .collect();
         reasons.dedup();
         let items: String =
             reasons.iter().map(|reason| format!("<li>{}</li>\n", escape(reason))).collect();
         if items.is_empty() { items } else { format!("<h2>{title}</h2>\n<ul>\n{items}</ul>\n") }
     };
-    let mut refused = stability.cells.iter().filter(|cell| is_refusal(cell));
+    let mut refused = stability.results.iter().filter(|result| is_refusal(result));
     let mut untried = stability.of_outcome(Outcome::Untried);
-    let place = |cell: &Cell| format!("{} = {}, {}", cell.case, tick(cell.value), cell.method);
-    list("Refusals", &mut refused, |cell| cell.case.clone()) + &list("Not run", &mut untried, place)
+    let where_not = |result: &CaseResult| {
+        format!("{} = {}, {}", result.case, tick(result.value), result.method)
+    };
+    list("Refusals", &mut refused, |result| result.case.clone())
+        + &list("Not run", &mut untried, where_not)
 }

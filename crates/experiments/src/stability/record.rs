@@ -1,19 +1,20 @@
-//! `records.json` of stability: every cell, and the limits that follow from them.
+//! `records.json` of stability: every result, and the limits that follow from them.
 
-use std::fs;
 use std::path::Path;
 
 use bench_scenes::Case;
 use serde::{Deserialize, Serialize};
 
-use super::cell::{Cell, Outcome};
+use super::case_result::CaseResult;
 use super::limits::expected;
+use super::outcome::Outcome;
+use crate::unfinished;
 use harness::machine::Provenance;
 use harness::output::write_json_lines;
 use harness::record::Adapter;
 
 /// Name and version of the format of [`Stability`].
-pub const SCHEMA: &str = "metaball-stability/2";
+pub const SCHEMA: &str = "metaball-stability/3";
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -26,7 +27,8 @@ pub struct Stability {
     /// Where each method's limits are, by case and method.
     pub limits: Vec<Limit>,
     /// Everything that was tried.
-    pub cells: Vec<Cell>,
+    #[serde(alias = "cells")]
+    pub results: Vec<CaseResult>,
 }
 
 /// Where a method leaves its tolerance in a case.
@@ -42,9 +44,9 @@ pub struct Limit {
     pub holds_to: Option<f64>,
     /// The first value that is not right, as far as is known; `None`: all are.
     pub fails_at: Option<f64>,
-    /// What becomes of the method there.
+    /// The outcome there.
     pub first: Outcome,
-    /// The worst that becomes of it at any value.
+    /// The worst outcome at any value.
     pub worst: Outcome,
     /// Whether the method said so itself, at every value whose verdicts it gets wrong; `None` where
     /// it gets none wrong.
@@ -54,45 +56,50 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// What the cells of a case and a method, in the order of values, come to; `None` of no cells.
-    pub fn of(case: &Case, cells: &[&Cell]) -> Option<Self> {
-        let first_cell = cells.first()?;
-        let fails = cells.iter().position(|cell| cell.outcome != Outcome::Right);
-        let worst = cells.iter().map(|cell| cell.outcome).max()?;
+    /// The limit that follows from the results of a case and a method, in the order of values; `None` of no
+    /// results.
+    pub fn of(case: &Case, results: &[&CaseResult]) -> Option<Self> {
+        let first_result = results.first()?;
+        let fails = results.iter().position(|result| result.outcome != Outcome::Right);
+        let worst = results.iter().map(|result| result.outcome).max()?;
         let holds =
-            fails.map_or(cells.last(), |index| index.checked_sub(1).map(|last| &cells[last]));
-        let is_unexpected = |cell: &&&Cell| {
-            cell.outcome != Outcome::Untried
-                && cell.outcome != expected(&cell.method, case, cell.value)
+            fails.map_or(results.last(), |index| index.checked_sub(1).map(|last| &results[last]));
+        let is_unexpected = |result: &&&CaseResult| {
+            result.outcome != Outcome::Untried
+                && result.outcome != expected(&result.method, case, result.value)
         };
         Some(Self {
             case: case.name.to_owned(),
             parameter: case.parameter.to_owned(),
-            method: first_cell.method.clone(),
-            holds_to: holds.map(|cell| cell.value),
-            fails_at: fails.map(|index| cells[index].value),
-            first: fails.map_or(Outcome::Right, |index| cells[index].outcome),
+            method: first_result.method.clone(),
+            holds_to: holds.map(|result| result.value),
+            fails_at: fails.map(|index| results[index].value),
+            first: fails.map_or(Outcome::Right, |index| results[index].outcome),
             worst,
-            says_so: (worst >= Outcome::Told).then_some(worst == Outcome::Told),
-            unexpected: cells.iter().filter(is_unexpected).map(|cell| cell.value).collect(),
+            says_so: (worst >= Outcome::Reported).then_some(worst == Outcome::Reported),
+            unexpected: results.iter().filter(is_unexpected).map(|result| result.value).collect(),
         })
     }
 }
 
 impl Stability {
-    /// Cells of a case and a method, in the order that they were tried.
-    pub fn of<'a>(&'a self, case: &'a str, method: &'a str) -> impl Iterator<Item = &'a Cell> {
-        self.cells.iter().filter(move |cell| cell.case == case && cell.method == method)
+    /// Results of a case and a method, in the order that they were tried.
+    pub fn of<'a>(
+        &'a self,
+        case: &'a str,
+        method: &'a str,
+    ) -> impl Iterator<Item = &'a CaseResult> {
+        self.results.iter().filter(move |result| result.case == case && result.method == method)
     }
 
-    /// Cells in which this became of a method.
-    pub fn of_outcome(&self, outcome: Outcome) -> impl Iterator<Item = &Cell> {
-        self.cells.iter().filter(move |cell| cell.outcome == outcome)
+    /// Results with this outcome.
+    pub fn of_outcome(&self, outcome: Outcome) -> impl Iterator<Item = &CaseResult> {
+        self.results.iter().filter(move |result| result.outcome == outcome)
     }
 
-    /// How many cells were run.
+    /// How many were run.
     pub fn tried(&self) -> usize {
-        self.cells.len() - self.of_outcome(Outcome::Untried).count()
+        self.results.len() - self.of_outcome(Outcome::Untried).count()
     }
 
     /// The limit of a method in a case.
@@ -109,10 +116,10 @@ impl Stability {
     }
 
     /// Reads what an interrupted run has left, if it is of the same program, command and adapter.
-    pub fn unfinished(&self, path: &Path) -> Option<Vec<Cell>> {
-        let left: Self = serde_json::from_str(&fs::read_to_string(path).ok()?).ok()?;
+    pub fn unfinished(&self, path: &Path) -> Option<Vec<CaseResult>> {
+        let left: Self = unfinished::read(path)?;
         let is_same = left.provenance == self.provenance && left.adapter == self.adapter;
-        is_same.then_some(left.cells)
+        is_same.then_some(left.results)
     }
 }
 
@@ -122,36 +129,37 @@ mod tests {
 
     use super::*;
 
-    fn cell(value: f64, outcome: Outcome) -> Cell {
-        let refused = Cell::refused("distance", value, "fbvh-certified", "why".to_owned());
-        Cell { outcome, ..refused }
+    fn result(value: f64, outcome: Outcome) -> CaseResult {
+        let refused = CaseResult::refused("distance", value, "fbvh-certified", "why".to_owned());
+        CaseResult { outcome, ..refused }
     }
 
     fn limit(outcomes: [Outcome; 3]) -> Limit {
         let case = cases().iter().find(|case| case.name == "distance").expect("known");
-        let cells: Vec<_> = case
+        let results: Vec<_> = case
             .values
             .iter()
             .zip(outcomes)
-            .map(|(&value, outcome)| cell(value, outcome))
+            .map(|(&value, outcome)| result(value, outcome))
             .collect();
-        Limit::of(case, &cells.iter().collect::<Vec<_>>()).expect("cells")
+        Limit::of(case, &results.iter().collect::<Vec<_>>()).expect("results")
     }
 
     #[test]
     fn a_limit_is_where_the_first_value_fails() {
-        use Outcome::{Coarse, Lost, Right, Told, Untried};
+        use Outcome::{Coarse, Reported, Right, SilentlyWrong, Untried};
         let all = limit([Right; 3]);
         assert_eq!((all.holds_to, all.fails_at, all.says_so), (Some(100.0), None, None));
         let none = limit([Coarse, Right, Right]);
         assert_eq!((none.holds_to, none.fails_at, none.says_so), (None, Some(10.0), None));
-        let told = limit([Right, Told, Coarse]);
+        let reported = limit([Right, Reported, Coarse]);
         assert_eq!(
-            (told.holds_to, told.fails_at, told.says_so),
+            (reported.holds_to, reported.fails_at, reported.says_so),
             (Some(10.0), Some(30.0), Some(true))
         );
-        let lost = limit([Right, Told, Lost]);
-        assert_eq!((lost.first, lost.worst, lost.says_so), (Told, Lost, Some(false)));
+        let wrong = limit([Right, Reported, SilentlyWrong]);
+        let found = (wrong.first, wrong.worst, wrong.says_so);
+        assert_eq!(found, (Reported, SilentlyWrong, Some(false)));
         // What was not run is neither right nor wrong, and nothing is expected of it.
         let rested = limit([Right, Untried, Untried]);
         assert_eq!((rested.first, rested.worst, rested.says_so), (Untried, Untried, None));
@@ -167,11 +175,11 @@ mod tests {
             provenance: Provenance::here(SCHEMA),
             adapter: Adapter { name: "a".into(), backend: "b".into(), driver: "d".into() },
             limits: Vec::new(),
-            cells: vec![cell(10.0, Outcome::Right)],
+            results: vec![result(10.0, Outcome::Right)],
         };
         assert_eq!(run.unfinished(&path), None);
         run.write(&path).expect("written");
-        assert_eq!(run.unfinished(&path), Some(run.cells.clone()));
+        assert_eq!(run.unfinished(&path), Some(run.results.clone()));
         let provenance = Provenance { commit: "d".to_owned(), ..run.provenance.clone() };
         let other = Stability { provenance, ..run };
         assert_eq!(other.unfinished(&path), None);

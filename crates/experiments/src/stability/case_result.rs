@@ -1,71 +1,37 @@
-//! What became of one method at one value of one case.
+//! The result of one method at one value of one case.
 
 use metaball_core::reference::Truth;
 use metaball_core::{Hit, Verdict};
 use serde::{Deserialize, Serialize};
 
+use super::outcome::Outcome;
 use harness::judge::{Judge, Ruling, Terms};
 use harness::score::{Finding, Judgement, RadiusError};
 use harness::stats::{quantile, sorted};
 
-/// From good to bad.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Outcome {
-    /// Every clear ray is right, and 99 of 100 hits lie within the method's tolerance.
-    Right,
-    /// Every clear ray is on the right front, but more than one hit in 100 lies beyond the tolerance.
-    Coarse,
-    /// Not run, with the reason: nothing is known.
-    Untried,
-    /// Not every ray has an answer, and the method says so: by marks on the pixels, or by a refusal
-    /// with its reason.
-    Told,
-    /// Some rays are wrong and not marked, all of them where the method's paper promises nothing.
-    Lost,
-    /// Some rays are wrong and not marked where the method promises to be right.
-    Broken,
-}
-
-impl Outcome {
-    /// All, from good to bad.
-    pub const ALL: [Self; 6] =
-        [Self::Right, Self::Coarse, Self::Untried, Self::Told, Self::Lost, Self::Broken];
-
-    /// In one word, as in records.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Coarse => "coarse",
-            Self::Untried => "untried",
-            Self::Told => "told",
-            Self::Lost => "lost",
-            Self::Broken => "broken",
-        }
-    }
-}
-
-/// A method at a value of a case's parameter.
+/// A method's result at a value of a case's parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Cell {
+pub struct CaseResult {
     /// Name of the case.
     pub case: String,
     /// Value of its parameter.
     pub value: f64,
     /// Name of the configuration.
     pub method: String,
-    /// What became of it.
+    /// What the rest amounts to.
     pub outcome: Outcome,
     /// What building and drawing took, in seconds.
     pub seconds: f64,
-    /// Rays that the oracle can call; the counts below are of these.
+    /// Rays that are clear to the oracle; the counts below are of these.
     pub clear: usize,
-    /// Rays that it cannot.
+    /// Rays that are not.
     pub ambiguous: usize,
     /// Rays marked as a fallback or as undecided.
-    pub told: usize,
+    #[serde(alias = "told")]
+    pub reported: usize,
     /// Rays wrong and not marked, where nothing is promised.
-    pub lost: usize,
+    #[serde(alias = "lost")]
+    pub silently_wrong: usize,
     /// Rays wrong and not marked, where the answer is promised.
     pub broken: usize,
     /// |Δt|/R of the hits that are right and not marked.
@@ -79,19 +45,19 @@ pub struct Cell {
     pub note: Option<String>,
 }
 
-impl Cell {
+impl CaseResult {
     /// A method that draws nothing and says why.
     pub(super) fn refused(case: &str, value: f64, configuration: &str, reason: String) -> Self {
         Self {
             case: case.to_owned(),
             value,
             method: configuration.to_owned(),
-            outcome: Outcome::Told,
+            outcome: Outcome::Reported,
             seconds: 0.0,
             clear: 0,
             ambiguous: 0,
-            told: 0,
-            lost: 0,
+            reported: 0,
+            silently_wrong: 0,
             broken: 0,
             error: None,
             differing: None,
@@ -113,7 +79,7 @@ impl Cell {
         differing: Option<usize>,
         must_repeat: bool,
     ) -> Self {
-        let mut cell = Self {
+        let mut result = Self {
             note: None,
             outcome: Outcome::Right,
             differing,
@@ -121,10 +87,10 @@ impl Cell {
         };
         let mut errors = Vec::new();
         for (ray, (truth, hit)) in judge.truths().iter().zip(hits).enumerate() {
-            cell.count((judge, ray), (truth, hit), terms, &mut errors);
+            result.count((judge, ray), (truth, hit), terms, &mut errors);
         }
         let errors = sorted(errors);
-        cell.error = quantile(&errors, 1.0).map(|max| RadiusError {
+        result.error = quantile(&errors, 1.0).map(|max| RadiusError {
             p50: quantile(&errors, 0.5).unwrap_or(max),
             p99: quantile(&errors, 0.99).unwrap_or(max),
             max,
@@ -132,20 +98,20 @@ impl Cell {
         let is_repeated = !must_repeat || differing.unwrap_or(0) == 0;
         if !is_repeated {
             let text = format!("{} pixels differ", differing.unwrap_or(0));
-            cell.note.get_or_insert(text);
+            result.note.get_or_insert(text);
         }
-        cell.outcome = if cell.broken > 0 || !is_repeated {
+        result.outcome = if result.broken > 0 || !is_repeated {
             Outcome::Broken
-        } else if cell.lost > 0 {
-            Outcome::Lost
-        } else if cell.told > 0 {
-            Outcome::Told
-        } else if cell.error.is_some_and(|error| error.p99 > terms.tolerance()) {
+        } else if result.silently_wrong > 0 {
+            Outcome::SilentlyWrong
+        } else if result.reported > 0 {
+            Outcome::Reported
+        } else if result.error.is_some_and(|error| error.p99 > terms.tolerance()) {
             Outcome::Coarse
         } else {
             Outcome::Right
         };
-        cell
+        result
     }
 
     fn count(
@@ -161,7 +127,7 @@ impl Cell {
         }
         self.clear += 1;
         if hit.fallback || hit.verdict == Verdict::Undecided {
-            self.told += 1;
+            self.reported += 1;
             return;
         }
         let judgement = Judgement::new(truth, hit);
@@ -170,8 +136,8 @@ impl Cell {
                 self.broken += 1;
                 self.note.get_or_insert(violation);
             }
-            Ok(Ruling::Excused) => self.lost += 1,
-            Ok(_) if judgement.is_wrong() => self.lost += 1,
+            Ok(Ruling::Excused) => self.silently_wrong += 1,
+            Ok(_) if judgement.is_wrong() => self.silently_wrong += 1,
             Ok(_) => {
                 if let Finding::Hit { error } = judgement.finding {
                     errors.push(error);

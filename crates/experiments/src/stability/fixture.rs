@@ -1,4 +1,4 @@
-//! Where cases are tried: the device, and renderers that live on from scene to scene.
+//! What cases are run with: the adapter, and renderers that live from scene to scene.
 
 use std::time::Instant;
 
@@ -7,26 +7,26 @@ use metaball_core::gpu::{Frame, Gpu, IsoRenderer, RenderError, Targets, render};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Scene, View};
 
-use super::cell::Cell;
+use super::case_result::CaseResult;
 use harness::configuration::Configuration;
 use harness::judge::{Judge, Terms};
 
 /// Rays of a picture that are judged at most, spread evenly.
 const MOST_RAYS: usize = 900;
 
-/// Scenes of more balls leave renderers with more room than small scenes want: they are made anew.
-const ROOMY: usize = 100;
+/// Scenes of more balls leave renderers with larger buffers than small scenes need: they are made anew.
+const LARGE_SCENE: usize = 100;
 
-/// Entrants with their renderers. Composing shaders takes longer than most of these pictures, so
+/// Configurations with their renderers. Composing shaders takes longer than most of these pictures, so
 /// renderers live as long as they can.
-pub struct Stand<'a> {
+pub struct Fixture<'a> {
     gpu: &'a Gpu,
     targets: Option<Targets>,
-    configurations: Vec<Entrant>,
+    configurations: Vec<Tested>,
 }
 
 /// A configuration, what it is held to, and its renderer.
-struct Entrant {
+struct Tested {
     configuration: Configuration,
     terms: Terms,
     renderer: Box<dyn IsoRenderer>,
@@ -34,7 +34,7 @@ struct Entrant {
     is_warm: bool,
 }
 
-impl<'a> Stand<'a> {
+impl<'a> Fixture<'a> {
     /// For configurations that are held to what they promise. Nothing is made yet on the device.
     pub fn new(gpu: &'a Gpu, configurations: impl IntoIterator<Item = Configuration>) -> Self {
         let with_terms = |configuration: Configuration| {
@@ -51,7 +51,7 @@ impl<'a> Stand<'a> {
     ) -> Self {
         let configuration = |(configuration, terms): (Configuration, Terms)| {
             let renderer = configuration.renderer(false);
-            Entrant { configuration, terms, renderer, is_warm: false }
+            Tested { configuration, terms, renderer, is_warm: false }
         };
         Self {
             gpu,
@@ -60,17 +60,17 @@ impl<'a> Stand<'a> {
         }
     }
 
-    /// Tries every configuration at a value of a case, each against the same truth; but one for which
-    /// `rests` has a reason is not run.
+    /// Runs every configuration at a value of a case, each against the same truth; but one for which `skip`
+    /// has a reason is not run.
     ///
     /// # Errors
     /// When the value makes no scene, or the device fails; what a method refuses is an outcome.
-    pub fn attempt(
+    pub fn run(
         &mut self,
         case: &Case,
         value: f64,
-        rests: impl Fn(&Configuration) -> Option<String>,
-    ) -> anyhow::Result<Vec<Cell>> {
+        skip: impl Fn(&Configuration) -> Option<String>,
+    ) -> anyhow::Result<Vec<CaseResult>> {
         let (bench, view) = case.view(value)?;
         let other = match case.redraw {
             Some(Redraw::Shuffled) => bench.shuffled()?.scene,
@@ -87,10 +87,10 @@ impl<'a> Stand<'a> {
         let oracle = Oracle::new(&bench.scene);
         let judge = Judge::new(&bench.scene, &oracle, &rays);
 
-        let mut cells = Vec::new();
-        for Entrant { configuration, terms, renderer, is_warm } in &mut self.configurations {
-            if let Some(reason) = rests(configuration) {
-                cells.push(Cell::untried(case.name, value, &configuration.name, reason));
+        let mut results = Vec::new();
+        for Tested { configuration, terms, renderer, is_warm } in &mut self.configurations {
+            if let Some(reason) = skip(configuration) {
+                results.push(CaseResult::untried(case.name, value, &configuration.name, reason));
                 continue;
             }
             let mut draw =
@@ -108,36 +108,31 @@ impl<'a> Stand<'a> {
                 }
             });
             let seconds = start.elapsed().as_secs_f64();
-            let place = (case.name, value);
-            let cell = match drawn {
-                Ok((hits, differing)) => {
-                    let picture = (&judge, pick(&hits, &pixels));
-                    let must_repeat = case.redraw == Some(Redraw::Same);
-                    let judged = (picture.0, &picture.1[..]);
-                    Cell::judged(
-                        place,
-                        (&configuration.name, terms),
-                        judged,
-                        differing,
-                        must_repeat,
-                    )
-                }
+            let name = configuration.name.as_str();
+            let result = match drawn {
+                Ok((hits, differing)) => CaseResult::judged(
+                    (case.name, value),
+                    (name, terms),
+                    (&judge, &pick(&hits, &pixels)),
+                    differing,
+                    case.redraw == Some(Redraw::Same),
+                ),
                 Err(error) if is_refusal(&error) => {
-                    Cell::refused(case.name, value, &configuration.name, error.to_string())
+                    CaseResult::refused(case.name, value, name, error.to_string())
                 }
                 Err(error) => return Err(error.into()),
             };
-            cells.push(Cell { seconds, ..cell });
-            if bench.scene.len() > ROOMY {
+            results.push(CaseResult { seconds, ..result });
+            if bench.scene.len() > LARGE_SCENE {
                 *renderer = configuration.renderer(false);
             }
         }
         self.targets = Some(targets);
-        Ok(cells)
+        Ok(results)
     }
 }
 
-/// Whether a method said that it cannot, and why; anything else is a failure of the device or of us.
+/// Whether a method refused; anything else is a failure of the device or of us.
 fn is_refusal(error: &RenderError) -> bool {
     matches!(
         error,
