@@ -60,7 +60,7 @@ const FRAMES: Sampling = Sampling { most: 5, enough: Duration::from_secs(2) };
 /// A method whose frame took longer than this is not tried on the next, harder scene of its row.
 const TIME_LIMIT_MS: f64 = 4_000.0;
 
-/// Measures and writes the file and the page. A run that was interrupted goes on where it stopped.
+/// Measures and writes the file and the page. A run that was interrupted is continued.
 ///
 /// # Errors
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
@@ -77,7 +77,7 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
             if !options.fresh && previous.provenance.commit == chart.provenance.commit =>
         {
             console::note(&format!(
-                "going on with {}: {} of {} scenes are done",
+                "continuing {}: {} of {} scenes are done",
                 path.display(),
                 previous.groups.len(),
                 plan.len()
@@ -111,7 +111,7 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
     let worked = chart.groups.iter().flat_map(|group| &group.records);
     anyhow::ensure!(
         worked.into_iter().any(|record| record.status == Status::Ok),
-        "nothing could be measured; the reasons stand above"
+        "nothing could be measured; the reasons are above"
     );
     Ok(())
 }
@@ -366,6 +366,6 @@ mod tests {
             Some("not run: too slow")
         );
         assert_eq!(too_slow.len(), 1);
-        assert!(chart.too_slow(&plan[0]).is_empty(), "charts of error leave nobody out");
+        assert!(chart.too_slow(&plan[0]).is_empty(), "charts of error leave no method out");
     }
 }

@@ -88,7 +88,7 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
     write_csv(&options.out.join("records.csv"), &records.records)?;
     write_atomically(&page, page::page(&records, &scenes, &remarks).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
-    anyhow::ensure!(worked, "nothing could be compared; the reasons stand above");
+    anyhow::ensure!(worked, "nothing could be compared; the reasons are above");
     Ok(())
 }
 

@@ -136,7 +136,7 @@ fn speed(scenes: &[Scene<'_>], careful: &str) -> Option<String> {
     ))
 }
 
-/// How far apart the first two are, and what nobody can know.
+/// How far apart the first two are, and what cannot be known.
 fn certainty(scenes: &[Scene<'_>]) -> String {
     let is_clear = |scene: &&Scene<'_>| match scene.ranking()[..] {
         [first, second, ..] => {
@@ -151,7 +151,7 @@ fn certainty(scenes: &[Scene<'_>]) -> String {
         accuracies.fold((0, 0), |(ambiguous, rays), a| (ambiguous + a.ambiguous, rays + a.rays));
     format!(
         "The first is ahead of the second by more than the quartiles of both on {clear} of {} scenes; \
-         {} of {} rays are too close for the reference to call and count against nobody; the times \
+         {} of {} rays are too close for the reference to call and count against no method; the times \
          are those of this machine.",
         scenes.len(),
         grouped(ambiguous),
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn the_exact_and_the_fast_are_told_apart() {
+    fn the_exact_and_the_fast_are_distinguished() {
         let one =
             scene("one", &[("fbvh", 20.0, 3), ("fbvh-certified", 10.0, 0), ("illes", 5.0, 9)]);
         let two = scene("two", &[("fbvh", 8.0, 0), ("fbvh-certified", 9.0, 0), ("illes", 4.5, 1)]);

@@ -1,4 +1,4 @@
-//! What is said to the person at the terminal: results on standard output, the rest on standard
+//! What is printed: results on standard output, the rest on standard
 //! error.
 
 use std::cell::Cell;
@@ -19,7 +19,7 @@ pub fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Opens an adapter, and says which.
+/// Opens an adapter, and prints which.
 ///
 /// # Errors
 /// When there is none of that kind.
@@ -29,7 +29,7 @@ pub fn open_adapter(choice: &AdapterChoice) -> anyhow::Result<Gpu> {
     Ok(gpu)
 }
 
-/// A bar that counts steps of known number; where nobody watches, one line for each stage.
+/// A bar that counts steps of known number; without a terminal, one line for each stage.
 pub struct ProgressBar {
     bar: indicatif::ProgressBar,
     watched: bool,
@@ -53,7 +53,7 @@ impl ProgressBar {
         Self { bar, watched, start: Instant::now(), skipped: Cell::new(0) }
     }
 
-    /// Says what begins now, and how long all is likely to take yet.
+    /// Shows what begins now, and how long all is likely to take yet.
     pub fn stage(&self, text: String) {
         let text = match self.left() {
             Some(left) => format!("{text} ({} left)", HumanDuration(left)),
@@ -71,7 +71,7 @@ impl ProgressBar {
         self.bar.inc(steps);
     }
 
-    /// At the pace of all steps so far: that of the last few says little where steps differ as methods
+    /// At the pace of all steps so far: that of the last few is no estimate where steps differ as methods
     /// do. `None` before the first.
     fn left(&self) -> Option<Duration> {
         let done = self.bar.position().saturating_sub(self.skipped.get());

@@ -22,7 +22,7 @@ struct File {
 type Key = (String, String, String, u32, u32, String, String, usize);
 
 /// Prints what became faster, slower, right, wrong, larger or smaller from one file to the other, and
-/// what stands in one alone.
+/// what is in one alone.
 ///
 /// # Errors
 /// When a file cannot be read or holds no records.
@@ -66,7 +66,7 @@ fn read(path: &Path) -> anyhow::Result<File> {
     Ok(File { commit, machine, records })
 }
 
-/// Records stand in a list in compare's files, and in groups in chart's.
+/// Records are in a list in compare's files, and in groups in chart's.
 fn collect(json: &Value, records: &mut Vec<Record>) -> serde_json::Result<()> {
     match json {
         Value::Array(values) => values.iter().try_for_each(|value| collect(value, records)),

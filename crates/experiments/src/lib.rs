@@ -1,9 +1,14 @@
-//! What methods are compared by: plans, runs, and pages about them.
+//! Experiments on methods. Each writes its records, and a page about them, into a folder; `runs/` holds
+//! those that are evidence. What methods are measured with is the crate `harness`.
 //!
-//! [`mod@compare`] puts methods side by side, [`mod@chart`] error against time, [`mod@stability`] turns
-//! the parameters of cases until methods break, [`mod@certify`] holds the certified tree against the
-//! oracle, [`tables`] repeats the papers' tables. Each writes its records and a page into a folder;
-//! `runs/` holds those that are evidence. What a method is put into is the crate `harness`.
+//! - [`mod@compare`]: methods side by side on some scenes. [`mod@score`]: hits of another program alone.
+//!   [`mod@diff`]: what changed between two files of records.
+//! - [`mod@chart`]: error against time of every option; growth with the number and density of balls.
+//! - [`mod@stability`]: parameters of cases that are turned until methods fail.
+//! - [`mod@certify`]: the certified tree against the oracle, over many rays.
+//! - [`tables`]: what papers print, measured anew, and tables of this program's own.
+//!
+//! They share [`console`], which prints, and for pages [`html`], [`table`], [`plot`] and [`conclusions`].
 
 pub mod certify;
 pub mod chart;

@@ -5,7 +5,7 @@ use harness::machine::Provenance;
 use harness::record::Adapter;
 use metaball_core::gpu::Gpu;
 
-/// A page. `body` is the template of what stands beneath the title, which is HTML as the parts are.
+/// A page. `body` is the template of what is beneath the title, which is HTML as the parts are.
 pub(crate) fn page(title: &str, body: &str, parts: &[(&str, String)]) -> String {
     let frame = [
         ("title", title.to_owned()),
@@ -15,7 +15,7 @@ pub(crate) fn page(title: &str, body: &str, parts: &[(&str, String)]) -> String 
     fill(include_str!("page.html"), &frame)
 }
 
-/// What a page says first.
+/// The conclusions at the top of a page.
 pub(crate) fn conclusion_paragraphs(sentences: &[String]) -> String {
     sentences.iter().map(|text| format!("<p class=\"conclusion\">{}</p>\n", escape(text))).collect()
 }

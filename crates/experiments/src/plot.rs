@@ -1,6 +1,6 @@
 //! Plots as SVG, for pages: points and lines over linear or logarithmic axes.
 //!
-//! Colours are those of Okabe and Ito (2008), which the colour-blind tell apart, and every series has
+//! Colours are those of Okabe and Ito (2008), which the colour-blind can distinguish, and every series has
 //! a shape of its own besides, for print in grey.
 
 use std::fmt::Write;
@@ -35,7 +35,7 @@ pub struct Axis {
 pub enum Scale {
     /// Evenly from 0.
     Linear,
-    /// Decades; what is not above 0 stands on a rail of its own at the axis' beginning.
+    /// Decades; what is not above 0 is on a rail of its own at the axis' beginning.
     Log,
 }
 
@@ -44,17 +44,17 @@ pub enum Scale {
 pub struct Series {
     /// In the legend; series of one name have one entry there, without a name none.
     pub name: String,
-    /// How it is told apart.
-    pub look: Look,
+    /// Its colour and shape.
+    pub style: Style,
     /// Whether a line joins the marks, in their order.
     pub joined: bool,
     /// The marks.
     pub marks: Vec<Mark>,
 }
 
-/// A number's place in the list of colours and of shapes.
+/// An index into the lists of colours and of shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Look(pub usize);
+pub struct Style(pub usize);
 
 /// A point.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,13 +63,13 @@ pub struct Mark {
     pub x: f64,
     /// Up.
     pub y: f64,
-    /// What it stands for.
+    /// What it means.
     pub kind: Kind,
     /// Its tooltip.
     pub text: String,
 }
 
-/// What a mark stands for.
+/// What a mark means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// One of a series.
@@ -106,13 +106,13 @@ pub fn line_plot(points: &[(f64, f64)], x_name: &str, y_name: &str) -> String {
         Mark { x, y, kind: Kind::Plain, text }
     };
     let marks = points.iter().map(mark).collect();
-    let series = Series { name: String::new(), look: Look(1), joined: true, marks };
+    let series = Series { name: String::new(), style: Style(1), joined: true, marks };
     Plot { x: axis(x_name), y: axis(y_name), series: vec![series], staircase: Vec::new() }.svg()
 }
 
 impl Plot {
     /// The drawing, without any reference outside itself. Marks that are no numbers are left out:
-    /// name them beside the plot.
+    /// name them next to the plot.
     pub fn svg(&self) -> String {
         let marks = || self.series.iter().flat_map(|series| &series.marks);
         let across = Span::new(self.x.scale, marks().map(|mark| mark.x), (LEFT, RIGHT));
@@ -126,26 +126,26 @@ impl Plot {
         text(&mut svg, (0.5 * (LEFT + RIGHT), BOTTOM + 38.0), "middle", &self.x.name);
         text(&mut svg, (LEFT - 56.0, TOP - 12.0), "start", &self.y.name);
 
-        let place = |x: f64, y: f64| Some((across.place(x)?, up.place(y)?));
+        let position = |x: f64, y: f64| Some((across.position(x)?, up.position(y)?));
         staircase(&mut svg, &self.staircase, &across, &up);
         for series in self.series.iter().filter(|series| series.joined) {
             let points: Vec<_> = series
                 .marks
                 .iter()
-                .filter_map(|mark| place(mark.x, mark.y))
+                .filter_map(|mark| position(mark.x, mark.y))
                 .map(|(x, y)| format!("{x:.1},{y:.1}"))
                 .collect();
             let _ = writeln!(
                 svg,
                 "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>",
                 points.join(" "),
-                series.look.color()
+                series.style.color()
             );
         }
         for series in &self.series {
             for mark in &series.marks {
-                if let Some(at) = place(mark.x, mark.y) {
-                    symbol(&mut svg, at, series.look, mark.kind, &mark.text);
+                if let Some(at) = position(mark.x, mark.y) {
+                    symbol(&mut svg, at, series.style, mark.kind, &mark.text);
                 }
             }
         }
@@ -160,19 +160,19 @@ impl Plot {
                 continue;
             }
             let y = TOP + 8.0 + 20.0 * names.len() as f64;
-            symbol(svg, (RIGHT + 24.0, y), series.look, Kind::Plain, "");
+            symbol(svg, (RIGHT + 24.0, y), series.style, Kind::Plain, "");
             text(svg, (RIGHT + 36.0, y + 4.0), "start", &series.name);
             names.push(&series.name);
         }
     }
 }
 
-impl Look {
+impl Style {
     fn color(self) -> &'static str {
         COLORS[self.0 % COLORS.len()]
     }
 
-    /// The outline of this look's shape around the origin.
+    /// The outline of this style's shape around the origin.
     fn outline(self, size: f64) -> String {
         let s = size;
         match self.0 % 6 {
@@ -226,7 +226,7 @@ impl Span {
         }
     }
 
-    fn place(&self, value: f64) -> Option<f64> {
+    fn position(&self, value: f64) -> Option<f64> {
         if !value.is_finite() {
             return None;
         }
@@ -280,12 +280,12 @@ fn grid(svg: &mut String, across: &Span, up: &Span) {
         let _ = writeln!(svg, "<path d=\"{path}\" fill=\"none\" stroke=\"#e4e7ea\"/>");
     };
     for tick in across.ticks() {
-        let Some(x) = across.place(tick) else { continue };
+        let Some(x) = across.position(tick) else { continue };
         lines(svg, format!("M{x:.1} {TOP}V{BOTTOM}"));
         text(svg, (x, BOTTOM + 18.0), "middle", &tick_text(tick, across.scale));
     }
     for tick in up.ticks() {
-        let Some(y) = up.place(tick) else { continue };
+        let Some(y) = up.position(tick) else { continue };
         lines(svg, format!("M{LEFT} {y:.1}H{RIGHT}"));
         text(svg, (LEFT - 8.0, y + 4.0), "end", &tick_text(tick, up.scale));
     }
@@ -321,7 +321,7 @@ fn tick_text(value: f64, scale: Scale) -> String {
 fn staircase(svg: &mut String, corners: &[(f64, f64)], across: &Span, up: &Span) {
     let mut path = String::new();
     for &(x, y) in corners {
-        if let (Some(x), Some(y)) = (across.place(x), up.place(y)) {
+        if let (Some(x), Some(y)) = (across.position(x), up.position(y)) {
             let start = if path.is_empty() { format!("M{x:.1} {TOP}") } else { format!("H{x:.1}") };
             let _ = write!(path, "{start}V{y:.1}");
         }
@@ -335,8 +335,8 @@ fn staircase(svg: &mut String, corners: &[(f64, f64)], across: &Span, up: &Span)
     }
 }
 
-fn symbol(svg: &mut String, (x, y): (f64, f64), look: Look, kind: Kind, tooltip: &str) {
-    let color = look.color();
+fn symbol(svg: &mut String, (x, y): (f64, f64), style: Style, kind: Kind, tooltip: &str) {
+    let color = style.color();
     let (size, fill) = match kind {
         Kind::Plain | Kind::Flagged => (4.0, color),
         Kind::Preset => (5.5, color),
@@ -350,7 +350,7 @@ fn symbol(svg: &mut String, (x, y): (f64, f64), look: Look, kind: Kind, tooltip:
     let _ = write!(
         svg,
         "<path d=\"{}\" fill=\"{fill}\" stroke=\"{color}\" stroke-width=\"1.2\"/>",
-        look.outline(size)
+        style.outline(size)
     );
     if kind == Kind::Flagged {
         let _ = write!(svg, "<path d=\"M-7 -7L7 7M-7 7L7 -7\" stroke=\"{color}\"/>");
@@ -375,7 +375,8 @@ mod tests {
         let mark =
             |&(x, y): &(f64, f64)| Mark { x, y, kind: Kind::Plain, text: "point".to_owned() };
         let marks = points.iter().map(mark).collect();
-        let series = Series { name: "balls < all".to_owned(), look: Look(1), joined: true, marks };
+        let series =
+            Series { name: "balls < all".to_owned(), style: Style(1), joined: true, marks };
         Plot { x: axis("x"), y: axis("y"), series: vec![series], staircase: Vec::new() }
     }
 

@@ -11,7 +11,7 @@ pub(crate) fn read_back<F: Serialize + DeserializeOwned>(file: &F) -> F {
     serde_json::from_str(&text).expect("as written")
 }
 
-/// A page needs no other file and no network, is filled in and whole, and says nothing of what is forbidden.
+/// A page needs no other file and no network, is filled in and whole, and has nothing forbidden in it.
 pub(crate) fn assert_stands_alone(page: &str, forbidden: &[&str]) {
     for forbidden in ["<script", "http", "url(", "{{"].iter().chain(forbidden) {
         assert!(!page.contains(forbidden), "{forbidden}");

@@ -228,7 +228,7 @@ impl<'a> Comparer<'a> {
         self.score_imported(&reference, comparison)
     }
 
-    /// Scores what other programs drew; their pictures stand behind those of the methods.
+    /// Scores what other programs drew; their pictures follow those of the methods.
     fn score_imported(
         &self,
         reference: &Reference,

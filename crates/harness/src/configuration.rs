@@ -1,5 +1,4 @@
-//! A method with its options set: what takes part in contests, charts, trials of stability and the
-//! choice of `auto`.
+//! A method with its options set: what comparisons, charts, stability and the choice of `auto` draw with.
 
 pub mod sweeps;
 pub mod variants;
@@ -24,7 +23,7 @@ pub struct Configuration {
     /// Name in tables and on the command line: `fbvh`, or `fbvh, tolerance 1e-3`, unless it has a
     /// [name of its own](Self::called).
     pub name: String,
-    /// Name in headings; an option stands behind an ellipsis.
+    /// Name in headings; an option follows an ellipsis.
     pub title: String,
 }
 
@@ -82,7 +81,7 @@ mod tests {
     use crate::methods::methods;
 
     #[test]
-    fn settings_say_what_they_set() {
+    fn configurations_say_what_they_set() {
         let method = &methods()[1];
         assert_eq!(Configuration::preset(method).to_string(), "fbvh");
         let search = SecantSearch { tolerance: 1e-3, ..SecantSearch::DEFAULT };

@@ -16,7 +16,7 @@ pub const SCALE: [[u8; 3]; 5] =
 
 /// Wrong verdicts: orange, blue's opposite for all kinds of colour vision.
 pub const WRONG: [u8; 3] = [230, 85, 13];
-/// Pixels at which the method could not tell.
+/// Pixels that the method left undecided.
 pub const UNDECIDED: [u8; 3] = [244, 200, 60];
 /// Pixels too close to call for the reference.
 pub const AMBIGUOUS: [u8; 3] = [150, 150, 150];

@@ -10,7 +10,7 @@ use crate::record::{Adapter, Record, Scored, Status};
 use crate::reference::Reference;
 use crate::score::{Accuracy, score};
 
-/// How far off hits are; without normals nothing is said of these.
+/// How far off hits are; without normals there are no errors of normals.
 ///
 /// # Errors
 /// When the reference is of a picture of another size.
@@ -40,7 +40,7 @@ impl ImportedHits {
         Ok(Self { name: name.to_owned(), file: file.to_owned(), image: read_hits(file)? })
     }
 
-    /// What the table says of them: a record without times. `adapter` is what drew the others.
+    /// Their record, which has no times. `adapter` is what drew the others.
     ///
     /// # Errors
     /// When the reference is of a picture of another size.

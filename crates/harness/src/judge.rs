@@ -53,7 +53,7 @@ impl Terms {
 pub enum Ruling {
     /// Too close to call for the oracle.
     Ambiguous,
-    /// Late, lost or replaced, where the method promises nothing.
+    /// Late, missed or replaced, where the method promises nothing.
     Excused,
     /// Nothing is there, and nothing was found.
     Empty,
@@ -66,7 +66,7 @@ pub enum Ruling {
 pub struct Findings {
     /// What must not be, in words, with the pixel: at most one a pixel.
     pub violations: Vec<String>,
-    /// Late, lost or replaced hits at rays for which the method promises nothing.
+    /// Late, missed or replaced hits at rays for which the method promises nothing.
     pub excused: usize,
     /// Rays too close to call for the oracle.
     pub ambiguous: usize,
@@ -83,7 +83,7 @@ pub struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// Asks the oracle.
+    /// With the oracle's truth about each ray.
     pub fn new(scene: &'a Scene, oracle: &'a Oracle<'a>, rays: &'a [Ray]) -> Self {
         Self { scene, oracle, rays, truths: oracle.first_hits(rays) }
     }

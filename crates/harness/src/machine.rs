@@ -6,7 +6,7 @@ use std::process::Command;
 
 use serde::{Deserialize, Serialize};
 
-/// What a file of numbers says first: its format, and where its numbers come from.
+/// The head of a file of numbers: its format, and where its numbers come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// Name and version of the file's format.
@@ -36,7 +36,7 @@ impl Provenance {
     }
 }
 
-/// The computer, as far as it tells.
+/// The computer, as far as the system reports it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
     /// Model of the processor.
@@ -50,7 +50,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Asks this machine.
+    /// This machine.
     pub fn here() -> Self {
         let read = |path| fs::read_to_string(path).unwrap_or_default();
         Self {
@@ -78,7 +78,7 @@ pub fn commit() -> String {
         .unwrap_or_else(|| "unknown".to_owned())
 }
 
-/// The command line as one would type it, with `metaball` in place of the program's path.
+/// The command line as one would type it, with `metaball` instead of the program's path.
 fn command() -> String {
     let words = std::env::args().skip(1).map(|word| quoted(&word));
     std::iter::once("metaball".to_owned()).chain(words).collect::<Vec<_>>().join(" ")

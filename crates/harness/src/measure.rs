@@ -1,5 +1,5 @@
 //! Drawing with methods and timing them: warm before timing, one after the other in turn, never from
-//! the same place twice.
+//! the same viewpoint twice.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -10,8 +10,8 @@ use metaball_core::{Aabb, Camera, Hit, Scene, View, ViewError};
 use crate::record::{Samples, WorkPerRay};
 use crate::stats::median;
 
-/// A renderer that has built its structure for a scene and drawn it once: warm, and with all the room
-/// that its first frame needed.
+/// A renderer that has built its structure for a scene and drawn it once: warm, and with buffers as
+/// large as its first frame needed.
 pub struct PreparedRenderer {
     /// What building took.
     pub build: BuildReport,
@@ -97,7 +97,7 @@ impl PreparedRenderer {
 }
 
 /// Draws every view with every renderer, in turn: A B A B, so that a machine that grows hot or busy
-/// is so for all. A renderer that fails has an error in its place and is not drawn again, nor is one
+/// is so for all. A renderer that fails has an error instead of a timing and is not drawn with again, nor is one
 /// that has had `enough` of at least two frames. Calls `after_frame` for each view and renderer.
 pub fn time_all(
     gpu: &Gpu,
@@ -192,7 +192,7 @@ struct Frames {
     passes_ms: BTreeMap<String, Vec<f64>>,
 }
 
-/// Frames of even the slowest method: one alone says nothing of its spread.
+/// Frames of even the slowest method: one alone has no spread.
 const LEAST_FRAMES: usize = 2;
 
 impl Frames {

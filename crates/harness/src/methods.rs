@@ -35,7 +35,7 @@ const METHODS: &[Method] = &[
         title: "Modified BVH",
         paper: "Gourmel et al. 2010, section 4",
         about: "A hierarchy whose leaves own their balls and name all others that reach in; boxes \
-                overlap, and a ray goes on until no nearer leaf is left.",
+                overlap, and a ray continues until no nearer leaf is left.",
         technique: Technique::Tree(Options::modified_bvh(), Some(SecantSearch::DEFAULT)),
     },
     Method {
@@ -49,7 +49,7 @@ const METHODS: &[Method] = &[
     Method {
         name: "fbvh-certified",
         title: "Certified FBVH",
-        paper: "not published: exact ranges in the place of the paper's assumption",
+        paper: "not published: exact ranges instead of the paper's assumption",
         about: "Boxes in which the field stays below or above the threshold are dropped or solid; \
                 the others are searched by exact bounds, so that no answer is wrong.",
         technique: Technique::Tree(Options::certified(), None),
@@ -120,7 +120,7 @@ const fn fragment_lists(piece: Piece) -> Technique {
     Technique::Fragments(illes_fraglist::Options { piece, ..published })
 }
 
-/// All methods there are, once somebody has asked or added some of their own.
+/// All methods, from the first use of the list or the first addition to it.
 static ALL: OnceLock<Vec<Method>> = OnceLock::new();
 
 /// All methods: those of this workspace, in the order of tables, then those that were
@@ -139,15 +139,15 @@ pub enum AddError {
         /// The name.
         name: &'static str,
     },
-    /// Somebody has the list already.
+    /// The list is in use already.
     #[error("methods: needed to be added once, before the first use of the list")]
     Late,
 }
 
-/// Adds methods of somebody else's to the list, before anybody has asked for it.
+/// Adds methods of another crate to the list, before its first use.
 ///
 /// # Errors
-/// When a name is taken, or the list was asked for or added to before.
+/// When a name is taken, or the list was used or added to before.
 pub fn add_methods(own: impl IntoIterator<Item = Method>) -> Result<(), AddError> {
     let mut all = METHODS.to_vec();
     for method in own {

@@ -40,7 +40,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// What stands this deep has a line of its own: members of the whole, and of its lists.
+    /// Members of the whole and of its lists, this deep, have a line each.
     const DEEPEST: usize = 2;
 
     fn open<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: u8) -> io::Result<()> {

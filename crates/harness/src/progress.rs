@@ -1,6 +1,6 @@
-//! How far a long measurement is: told to whoever watches.
+//! How a long measurement reports its progress.
 
-/// Whoever watches a measurement. `()` does not.
+/// What progress is reported to. `()` ignores it.
 pub trait Progress {
     /// Something begins.
     fn stage(&self, text: String);

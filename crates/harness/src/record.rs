@@ -64,7 +64,7 @@ pub struct Record {
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// The result; its keys stand beside those above, and are missing when there is none.
+    /// The result; its keys are beside those above, and missing when there is none.
     #[serde(flatten)]
     pub measured: Option<Measured>,
     /// The comparison of another program's hits, which were not drawn here.
@@ -82,7 +82,7 @@ pub struct Scored {
 }
 
 impl Record {
-    /// The comparison with the reference, whoever drew; `None` where there is no result.
+    /// The comparison with the reference, of methods and other programs alike; `None` where there is no result.
     pub fn accuracy(&self) -> Option<&Accuracy> {
         let measured = self.measured.as_ref().map(|measured| &measured.accuracy);
         measured.or_else(|| self.scored.as_ref().map(|scored| &scored.accuracy))
@@ -97,7 +97,7 @@ pub enum Status {
     Ok,
     /// Another program's hits, compared.
     Scored,
-    /// A frame stayed incomplete however much room the method made.
+    /// A frame stayed incomplete however large the method made its buffers.
     Incomplete,
     /// The method or the adapter cannot do this scene.
     Unsupported,
@@ -157,7 +157,7 @@ pub struct Measured {
     pub passes: BTreeMap<String, f64>,
     /// Pixels that a published rule for trouble made.
     pub fallback_pixels: u64,
-    /// Pixels for which the method could not tell.
+    /// Pixels that the method left undecided.
     pub undecided_pixels: u64,
     /// Comparison with the reference.
     pub accuracy: Accuracy,

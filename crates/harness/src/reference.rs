@@ -64,7 +64,7 @@ impl Reference {
         Self::of_telling_pixels(&oracle, rays, size, images, radius)
     }
 
-    /// Asks the oracle about a lattice of pixels, every pixel where two of the images disagree, and
+    /// Traces the oracle's rays of a lattice of pixels, every pixel where two of the images disagree, and
     /// two pixels around every edge that an image or the oracle's lattice shows. `rays` are those of
     /// all pixels; `radius` is the smallest support radius of the scene.
     pub fn of_telling_pixels(
@@ -76,7 +76,7 @@ impl Reference {
     ) -> Self {
         let lattice = Subset::lattice(width, height, STRIDE);
         let coarse_pixels: Vec<_> = lattice.pixels().collect();
-        let coarse_truths = ask(oracle, rays, &coarse_pixels);
+        let coarse_truths = truths_of(oracle, rays, &coarse_pixels);
 
         let mut wanted = Subset::empty(width, height);
         wanted.add_disagreements(images, radius);
@@ -90,7 +90,7 @@ impl Reference {
         wanted.add_edges(&coarse_image, radius, STRIDE);
 
         let more: Vec<_> = wanted.pixels().filter(|&pixel| !lattice.contains(pixel)).collect();
-        let more_truths = ask(oracle, rays, &more);
+        let more_truths = truths_of(oracle, rays, &more);
         let mut answers: Vec<_> = coarse_pixels
             .into_iter()
             .zip(coarse_truths)
@@ -140,7 +140,7 @@ impl Reference {
         self.pixels.len() == self.image_pixels()
     }
 
-    /// The image to look at: a pixel without an answer shows that of the middle of its lattice cell.
+    /// The image to show: a pixel without an answer shows that of the middle of its lattice cell.
     pub fn hits(&self) -> Vec<Hit> {
         let mut answers = vec![None; self.image_pixels()];
         for (pixel, truth) in self.rays() {
@@ -162,7 +162,7 @@ fn middle(coordinate: usize, end: usize) -> usize {
     if middle < end { middle } else { middle.saturating_sub(STRIDE) }
 }
 
-fn ask(oracle: &Oracle<'_>, rays: &[Ray], pixels: &[usize]) -> Vec<Truth> {
+fn truths_of(oracle: &Oracle<'_>, rays: &[Ray], pixels: &[usize]) -> Vec<Truth> {
     let rays: Vec<_> = pixels.iter().map(|&pixel| rays[pixel]).collect();
     oracle.first_hits(&rays)
 }
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_part_tells_what_the_whole_does() {
+    fn a_part_agrees_with_the_whole() {
         let bench = load("random-200", &Overrides::default()).expect("known");
         let size = (64, 48);
         let rays: Vec<_> = (0..size.0 * size.1)
@@ -209,14 +209,14 @@ mod tests {
         assert!(part.rays().zip(part.rays().skip(1)).all(|(one, next)| one.0 < next.0));
         assert!(part.rays().all(|(pixel, truth)| *truth == whole.truths()[pixel]));
 
-        // What is filled in differs from the truth only where nobody looked.
+        // What is filled in differs from the truth only where nothing was traced.
         let filled = part.hits();
         for (pixel, truth) in part.rays() {
             assert_eq!(filled[pixel].verdict, truth.verdict);
         }
         let hits = |image: &[Hit]| image.iter().filter(|hit| hit.is_hit()).count();
         assert!(hits(&image) > 100);
-        assert_eq!(hits(&filled), hits(&image), "edges are looked at, so silhouettes are right");
+        assert_eq!(hits(&filled), hits(&image), "edges are traced, so silhouettes are right");
     }
 
     #[test]

@@ -75,7 +75,7 @@ pub struct Judgement {
     pub finding: Finding,
 }
 
-/// A method's word on a ray against the reference's. A start inside counts as a hit.
+/// A method's verdict on a ray against the reference's. A start inside counts as a hit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Finding {
     /// Both miss.
@@ -90,7 +90,7 @@ pub enum Finding {
     FalseNegative,
     /// The ray misses; the method says hit.
     FalsePositive,
-    /// The method could not tell.
+    /// The method left the ray undecided.
     Undecided,
 }
 

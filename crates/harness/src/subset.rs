@@ -1,4 +1,4 @@
-//! Which pixels tell methods apart: a set of pixels of an image, grown from what is seen in hits.
+//! Pixels at which methods may differ: a set of pixels of an image, grown from hits.
 
 use std::ops::RangeInclusive;
 
@@ -6,7 +6,7 @@ use metaball_core::Hit;
 
 use crate::fronts::WRONG_FRONT;
 
-/// Around an edge, pixels up to this far away (in both directions) are looked at.
+/// Around an edge, pixels up to this far away (in both directions) are traced.
 const EDGE_MARGIN: usize = 2;
 
 /// A depth step between neighbours counts as an edge from this many smallest support radii on: the
@@ -133,7 +133,7 @@ mod tests {
         let mut same = Subset::empty(5, 1);
         same.add_disagreements(&[&two, &two], 1.0);
         assert!(pixels(&same).is_empty());
-        // With one picture there is nobody to disagree with.
+        // With one picture there is no other to disagree with.
         same.add_disagreements(&[&one], 1.0);
         assert!(pixels(&same).is_empty());
     }

@@ -1,5 +1,5 @@
 //! What a method does, with all its options: whatever else the harness knows of a method follows from
-//! this: its renderer, the tree that the CPU traces in its place, where it promises to be right, how
+//! this: its renderer, the tree that the CPU traces instead, where it promises to be right, how
 //! near a root it stops, and the kernels that it refuses.
 
 use fbvh::{Kind, SecantSearch};
@@ -21,11 +21,11 @@ pub enum Technique {
     TileSearch,
     /// Gathers a list of balls for each pixel: Illés and Szécsi.
     Fragments(illes_fraglist::Options),
-    /// A method of somebody else's.
+    /// A method of another crate.
     Own(Own),
 }
 
-/// A method of somebody else's.
+/// A method of another crate.
 #[derive(Debug, Clone, Copy)]
 pub struct Own {
     /// Makes a renderer that counts its work or, as when timing, does not. Its name is the method's.

@@ -59,7 +59,7 @@ struct Request {
 }
 
 impl DrawingArgs {
-    /// Whoever was chosen otherwise draws; else the method named, or the default.
+    /// With `auto` where it chooses; else with the method named, or the default.
     fn request(self, auto: Option<Choosing>) -> anyhow::Result<Request> {
         let Self { scene, method, picture, cpu, color, camera, light, shared } = self;
         let method = match auto {
@@ -151,7 +151,7 @@ impl RenderArgs {
         self.drawing.light.options()
     }
 
-    /// Whether to choose who draws; an error is asked of `auto` alone.
+    /// Whether `auto` chooses the method; only then may an error be given.
     fn choosing(&self) -> anyhow::Result<Option<Choosing>> {
         let (name, max_error) = (self.drawing.method.as_deref(), self.max_error);
         if name == Some(AUTO) || (name.is_none() && max_error.is_some()) {
@@ -169,7 +169,7 @@ impl RenderArgs {
 pub(crate) struct AnimateArgs {
     #[command(flatten)]
     drawing: DrawingArgs,
-    /// Frames, the last one not included; all, or the first seconds of what goes on for ever.
+    /// Frames, the last one not included; all, or the first seconds of what never ends.
     #[arg(long, value_name = "A..B", value_parser = values::frame_range)]
     frames: Option<Range<u32>>,
     /// Draw every Nth of them.

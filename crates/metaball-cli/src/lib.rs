@@ -54,7 +54,7 @@ enum Command {
     /// Draw the frames of a moving scene, and report how long building and drawing took.
     ///
     /// Frames that are there already, whole and drawn with these options, are not drawn again, so an
-    /// interrupted run is taken up where it was, and the range can be split among machines.
+    /// interrupted run is continued, and the range can be split among machines.
     Animate(Box<AnimateArgs>),
     /// Measure a paper's tables anew, and set the printed numbers beside; or other programs; or what it
     /// saves that shaders are made for a scene.
@@ -69,7 +69,7 @@ enum Command {
     /// Every stability case within the stated limits, then random scenes; rays of pictures, along the
     /// surface, along the faces of the tree's boxes, out of the solid. The CPU's tracer answers all, the
     /// adapter a third. Fails where an answer is wrong, or too many are undecided or inexact. An
-    /// interrupted run is taken up where it was.
+    /// interrupted run is continued.
     Certify(CertifyArgs),
     /// Chart error against time over every method's knobs, and growth with count and density.
     Chart(ChartArgs),
@@ -79,12 +79,12 @@ enum Command {
     Methods,
 }
 
-/// Does what the process's arguments say, and says what went wrong.
+/// Runs the command that the process's arguments name, and prints what went wrong.
 pub fn run() -> ExitCode {
     run_with([])
 }
 
-/// The same with methods of somebody else's, which join every command as those of this workspace do.
+/// The same with methods of another crate, which join every command as those of this workspace do.
 ///
 /// ```no_run
 /// # use metaball_core::gpu::IsoRenderer;

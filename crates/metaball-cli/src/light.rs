@@ -8,7 +8,7 @@ use metaball::{FloorKind, LightOptions};
 
 use crate::values::vector;
 
-/// Any of them asks for ray traced light in place of the shared Phong picture.
+/// Any of them turns on ray traced light instead of the shared Phong picture.
 #[derive(Debug, Args)]
 #[command(
     next_help_heading = "Light (shadows, occlusion, mirrored surfaces and refraction need a \

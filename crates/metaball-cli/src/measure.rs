@@ -98,7 +98,7 @@ pub(crate) struct ScoreArgs {
     /// What the program that found them is called.
     #[arg(long, value_name = "NAME", default_value = "other")]
     name: String,
-    /// Print the scene's camera, for another program to use, in place of a score.
+    /// Print the scene's camera, for another program to use, instead of a score.
     #[arg(long)]
     camera: bool,
     /// Compare every pixel, of large scenes too.

@@ -21,7 +21,7 @@ pub(crate) fn drawer_parser() -> impl TypedValueParser<Value = String> {
 
 pub(crate) const AUTO: &str = "auto";
 
-/// Who draws unless told.
+/// The method unless another is named.
 pub(crate) const DEFAULT_METHOD: &str = "fbvh-certified";
 
 /// A stability case by name.

@@ -29,13 +29,13 @@ impl PictureArgs {
 /// What is changed about a scene's field.
 #[derive(Debug, Args)]
 pub(crate) struct FieldArgs {
-    /// Kernel in place of the scene's own: power, wyvill or perlin.
+    /// Kernel instead of the scene's own: power, wyvill or perlin.
     #[arg(long, value_name = "NAME", value_parser = values::kernel)]
     kernel: Option<Kernel>,
     /// Exponent of a power kernel, 1 to 8.
     #[arg(long, value_name = "N")]
     exponent: Option<i64>,
-    /// Threshold in place of the scene's own.
+    /// Threshold instead of the scene's own.
     #[arg(long, value_name = "T")]
     threshold: Option<f32>,
 }

@@ -31,7 +31,7 @@ pub trait AnimatedScene: Sync {
     /// A camera for all frames.
     fn camera(&self) -> &Camera;
 
-    /// The frames that it has; where it goes on for ever, its first seconds.
+    /// The frames that it has; where it never ends, its first seconds.
     fn frames(&self) -> Range<u32>;
 
     /// The numbers of frames in a range for which there is something to draw.
@@ -78,11 +78,11 @@ impl AnimatedScene for Sequence {
 pub struct AnimateOptions {
     /// How to draw each.
     pub draw: DrawOptions,
-    /// Which frames; `None` for all, or the first seconds of what goes on for ever.
+    /// Which frames; `None` for all, or the first seconds of what never ends.
     pub frames: Option<Range<u32>>,
     /// Only every so manyth of them; 0 counts as 1.
     pub every: u32,
-    /// Where the PNGs go. The report goes beside them, named like the first but ending in `json`.
+    /// Where the PNGs go. The report is written next to them, named like the first but ending in `json`.
     pub out: NumberedPath,
     /// Where a picture of all frames side by side goes, if anywhere. None is written where frames are
     /// broken.

@@ -22,7 +22,7 @@ pub struct DrawOptions {
     pub viewpoint: Viewpoint,
     /// What the picture shows.
     pub picture: Picture,
-    /// Ray traced light, in the place of the shared Phong picture.
+    /// Ray traced light, instead of the shared Phong picture.
     pub light: LightOptions,
     /// What computes.
     pub backend: Backend,

@@ -18,7 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! - [`load`] reads a particle file; any [`Scene`] and [`Camera`] will do in its place.
+//! - [`load`] reads a particle file; any [`Scene`] and [`Camera`] will do instead.
 //! - [`draw()`] draws one picture, as [`DrawOptions`] say: [size](DrawOptions::size), another
 //!   [`Viewpoint`], [what it shows](DrawOptions::picture), [`LightOptions`], [which method](Method) and
 //!   [what computes](Backend). All of them have defaults. The result is a [`Drawing`]: the image, and

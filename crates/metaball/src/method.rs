@@ -97,6 +97,6 @@ fn tree_paper(kind: Kind) -> &'static str {
     match kind {
         Kind::ModifiedBvh => "Gourmel et al. 2010, section 4",
         Kind::Fitted => "Gourmel et al. 2010, section 5",
-        Kind::Certified => "not published: exact ranges in the place of the paper's assumption",
+        Kind::Certified => "not published: exact ranges instead of the paper's assumption",
     }
 }

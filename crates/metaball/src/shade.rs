@@ -183,7 +183,7 @@ mod tests {
 
     /// Hits of the same frame under both shadings. WGSL lets `pow` err by 16 units in the last place
     /// of the logarithm it goes through, 1e-5 of a channel here, which moves a value by at most one
-    /// step where it lies beside a rounding boundary. Blended colours go through two roundings.
+    /// step where it lies next to a rounding boundary. Blended colours go through two roundings.
     #[test]
     fn both_shadings_agree() {
         let Some(gpu) = Gpu::for_test() else { return };
@@ -192,7 +192,7 @@ mod tests {
             let scene = &bench.scene;
             let view = View::new(bench.camera, 64, 48).expect("a size");
             let targets =
-                Targets::new(&gpu, 64, 48, scene.colors().is_some(), false).expect("room");
+                Targets::new(&gpu, 64, 48, scene.colors().is_some(), false).expect("memory");
             let mut renderer = fbvh::gpu::Renderer::new("fbvh", Options::fitted(), false);
             renderer.build(&gpu, scene).expect("built");
             gpu::render(&gpu, &mut renderer, &targets, &view).expect("drawn");

@@ -81,7 +81,7 @@ impl AdapterScene<'_> {
             let reason = "needed a tracer of any ray, found none".to_owned();
             let none = RenderError::Unsupported { method: name, reason };
             let tracer = renderer.ray_tracer().ok_or(none)?;
-            RayQuery::ALL.iter().try_for_each(|&ask| tracer.encode_answers(frame, batch, ask))
+            RayQuery::ALL.iter().try_for_each(|&query| tracer.encode_answers(frame, batch, query))
         })?;
         let mut hits = self.batch.read_hits(self.gpu)?;
         hits.truncate(rays.len());

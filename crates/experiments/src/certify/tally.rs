@@ -83,9 +83,9 @@ pub struct Count {
     pub rays: u64,
     /// Of these, within a thousandth of a radius of tangency or of a box's face.
     pub near: u64,
-    /// Rays that the oracle says hit, or that come out.
+    /// Rays that hit, by the oracle, or that leave the solid.
     pub hits: u64,
-    /// Rays that the oracle says miss, or that do not.
+    /// Rays that miss, by the oracle, or that do not leave it.
     pub misses: u64,
     /// Rays that the oracle finds too close to call; part of hits and misses.
     pub ambiguous: u64,
@@ -294,7 +294,7 @@ fn is_as_near_as_floats(truth: &Truth, hit: &Hit) -> bool {
     truth.verdict != Verdict::Miss && hit.is_hit() && (f64::from(hit.t) - truth.t).abs() <= reach
 }
 
-/// The oracle's margin of a start inside says nothing of the exit: whether raising or lowering the
+/// The oracle's margin of a start inside is no margin of the exit: whether raising or lowering the
 /// field by the ambiguous share of T moves it from this front.
 fn exit_is_ambiguous(check: &Check<'_>, ray: &Ray, leaves: f64) -> bool {
     let share = Truth::AMBIGUOUS as f32;

@@ -388,7 +388,7 @@ mod tests {
         let oracle = Oracle::new(&sample.scene);
         let tree = Tree::build(&sample.scene, &Options::certified()).expect("a tree");
         let tracer = fbvh::Tracer::new(&tree, &sample.scene);
-        let answer = |free: &FreeRay| match free.query().expect("asked") {
+        let answer = |free: &FreeRay| match free.query().expect("a query") {
             RayQuery::Exit => tracer.first_exit(&free.ray()).expect("certified"),
             RayQuery::FirstHit => tracer.first_hit(&free.ray()),
             RayQuery::AnyHit => Hit { verdict: tracer.any_hit(&free.ray()), ..Hit::MISS },

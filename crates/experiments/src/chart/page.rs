@@ -10,7 +10,7 @@ use super::shortlist;
 use crate::conclusions::conclusions;
 use crate::html::escape;
 use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
-use crate::plot::{Axis, Kind, Look, Mark, Plot, Scale, Series};
+use crate::plot::{Axis, Kind, Mark, Plot, Scale, Series, Style};
 use harness::configuration::label;
 use harness::machine::has_little_raster;
 use harness::methods::{find, methods};
@@ -96,7 +96,8 @@ fn error_plot(group: &Group, quantity: &str, error: Quantity) -> String {
             .filter(|record| record.method == method.name)
             .filter_map(|record| Some((record, record.measured.as_ref()?)))
             .collect();
-        let plain = |name: String, joined, marks| Series { name, look: Look(index), joined, marks };
+        let plain =
+            |name: String, joined, marks| Series { name, style: Style(index), joined, marks };
         let name = format!("{} ({})", method.title, method.name);
         let mut options: Vec<_> =
             records.iter().flat_map(|(record, _)| record.options.keys()).collect();
@@ -251,7 +252,7 @@ fn density_section(chart: &Chart) -> String {
         .map(|&(name, quantity)| row_plot(&groups, "overlapping balls", density, name, quantity))
         .collect();
     let missing = missing(&groups);
-    let about = "<p>One place and count of balls; radii grow, and the threshold keeps the share of \
+    let about = "<p>One camera and count of balls; radii grow, and the threshold keeps the share of \
                  pixels that hit.</p>\n";
     section("Denser balls", &format!("{about}{}{plots}{missing}", spreads(&groups)))
 }
@@ -288,7 +289,7 @@ fn depth_section(chart: &Chart) -> String {
     groups.sort_by(|a, b| a.supports_per_ray.total_cmp(&b.supports_per_ray));
     let series = methods().iter().enumerate().map(|(index, method)| Series {
         name: format!("{} ({})", method.title, method.name),
-        look: Look(index),
+        style: Style(index),
         joined: false,
         marks: measured_of(&groups, method.name)
             .map(|(group, measured)| Mark {
@@ -401,7 +402,7 @@ fn row_plot(
             })
             .collect();
         let title = find(name).map_or(name, |method| method.title);
-        Series { name: format!("{title} ({name})"), look: Look(index), joined: true, marks }
+        Series { name: format!("{title} ({name})"), style: Style(index), joined: true, marks }
     };
     let series = names(groups).into_iter().map(line).collect();
     Plot { x: log_axis(x_name), y: log_axis(y_name), series, staircase: Vec::new() }.svg()

@@ -25,7 +25,7 @@ impl Row<'_> {
     }
 }
 
-/// Errors that are asked for: the default of `auto`, and one that cubics may keep.
+/// Errors that are allowed: the default of `auto`, and one that cubics may keep.
 const ERRORS: [f64; 2] = [harness::auto::MAX_ERROR, 0.05];
 
 /// Every scene of the charts of error, for each error that any configuration keeps there. R is the chart's:

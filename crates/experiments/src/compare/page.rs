@@ -184,7 +184,7 @@ fn legend() -> String {
          <div class=\"ticks\">{ticks}</div><ul>{}{}{}{}{}</ul></div>\n",
         stops.join(","),
         key(WRONG, "wrong verdict, enlarged"),
-        key(UNDECIDED, "the method could not tell"),
+        key(UNDECIDED, "undecided"),
         key(AMBIGUOUS, "too close to call for the reference"),
         key(MISS, "both miss"),
         key(NOT_COMPARED, "not compared"),

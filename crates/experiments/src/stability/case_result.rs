@@ -46,7 +46,7 @@ pub struct CaseResult {
 }
 
 impl CaseResult {
-    /// A method that draws nothing and says why.
+    /// A method that draws nothing and reports why.
     pub(super) fn refused(case: &str, value: f64, configuration: &str, reason: String) -> Self {
         Self {
             case: case.to_owned(),
@@ -71,7 +71,7 @@ impl CaseResult {
     }
 
     /// Judges a picture. `differing` counts pixels that are not as in the frame drawn before;
-    /// `must_repeat` says that there may be none.
+    /// where `must_repeat`, there may be none.
     pub(super) fn judged(
         (case, value): (&str, f64),
         (configuration, terms): (&str, &Terms),

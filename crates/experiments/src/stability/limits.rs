@@ -2,8 +2,8 @@
 //!
 //! Whatever is not listed is expected to be right. A published method is listed where its paper says
 //! that it fails, and the expectation fails when it no longer does; a robust or certified one where
-//! its limit is, and there it must report it. *Broken* is a known defect: it stands here so that nobody
-//! forgets it, and so that the test fails when it is mended.
+//! its limit is, and there it must report it. *Broken* is a known defect: it is listed so that it is
+//! not forgotten, and so that the test fails when it is mended.
 
 use bench_scenes::Case;
 

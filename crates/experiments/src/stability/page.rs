@@ -32,7 +32,7 @@ pub(super) fn page(
     page::page("Where metaball ray casters fail", include_str!("page.html"), &parts)
 }
 
-/// How the outcomes stand to the table of stated limits.
+/// How the outcomes compare with the table of stated limits.
 fn remarks(stability: &Stability) -> Vec<String> {
     let unexpected: usize = stability.limits.iter().map(|limit| limit.unexpected.len()).sum();
     let mut remarks = Vec::new();
@@ -254,13 +254,13 @@ fn section(stability: &Stability, case: &Case, configurations: &[Configuration])
 
 fn value_cell(result: &CaseResult) -> String {
     let mut parts = Vec::new();
-    for (count, word) in [
+    for (count, name) in [
         (result.broken, "broken"),
         (result.silently_wrong, "silently wrong"),
         (result.reported, "reported"),
     ] {
         if count > 0 {
-            parts.push(format!("{count} {word}"));
+            parts.push(format!("{count} {name}"));
         }
     }
     if let Some(differing) = result.differing {

@@ -48,10 +48,10 @@ pub struct Limit {
     pub first: Outcome,
     /// The worst outcome at any value.
     pub worst: Outcome,
-    /// Whether the method said so itself, at every value whose verdicts it gets wrong; `None` where
+    /// Whether the method reported it itself, at every value whose verdicts it gets wrong; `None` where
     /// it gets none wrong.
     pub says_so: Option<bool>,
-    /// The values at which it is not what the table of stated limits says.
+    /// The values at which it is not what the table of stated limits expects.
     pub unexpected: Vec<f64>,
 }
 

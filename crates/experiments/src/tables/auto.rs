@@ -23,7 +23,7 @@ use harness::numbers::{decimal, grouped, small};
 /// Name and version of the format of `auto.json`.
 pub const SCHEMA: &str = "metaball-tables-auto/1";
 
-/// Errors that are asked for, mean support radii: the default of `auto`, and one that cubics may keep.
+/// Errors that are allowed, mean support radii: the default of `auto`, and one that cubics may keep.
 const ERRORS: [f64; 2] = [MAX_ERROR, 0.05];
 
 /// `scenes`, or the extent's own where there are none.
@@ -151,7 +151,7 @@ fn row(scene: &str, judged: &JudgedChoice) -> Vec<String> {
     let ms = |ms: Option<f64>| ms.map_or_else(|| "–".to_owned(), decimal);
     let chosen = match &judged.choice {
         Ok(choice) => choice.configuration.clone(),
-        Err(_) => "nobody".to_owned(),
+        Err(_) => "none".to_owned(),
     };
     let drawn = judged.drawn.as_ref();
     let best = judged.best.as_ref();
@@ -160,7 +160,7 @@ fn row(scene: &str, judged: &JudgedChoice) -> Vec<String> {
         small(judged.max_error),
         chosen,
         ms(drawn.map(|drawn| drawn.frame_ms)),
-        best.map_or_else(|| "nobody".to_owned(), |best| best.0.clone()),
+        best.map_or_else(|| "none".to_owned(), |best| best.0.clone()),
         ms(best.map(|best| best.1)),
         ms(judged.ratio()),
         drawn.map_or_else(|| "–".to_owned(), |drawn| small(drawn.errors.p99)),
@@ -207,16 +207,16 @@ mod tests {
         assert_eq!(measured.all.len(), 4);
         assert_eq!(measured.choices.len(), ERRORS.len());
         for judged in &measured.choices {
-            let choice = judged.choice.as_ref().expect("somebody will do");
+            let choice = judged.choice.as_ref().expect("one will do");
             assert!(choice.errors.keep(judged.max_error));
             let drawn = judged.drawn.expect("chosen from all");
             let ratio = judged.ratio().expect("both drew");
-            // Nobody who keeps the error is quicker than the quickest of all who do.
+            // None that keeps the error is quicker than the quickest of all that do.
             assert!(ratio >= 1.0 || !drawn.errors.keep(judged.max_error), "{judged:?}");
         }
         assert_eq!(measured.choices[0].is_kept(), Some(true));
-        // The cubic is out where a thousandth of a radius is asked for.
-        let strict = measured.choices[0].choice.as_ref().expect("somebody will do");
+        // The cubic is out where a thousandth of a radius is allowed.
+        let strict = measured.choices[0].choice.as_ref().expect("one will do");
         assert!(strict.left_out.iter().any(|(name, _)| name == "illes"), "{strict:?}");
 
         let back = read_back(&measurements);

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use self::compare::{Density, Row, WorkRow};
 use self::path_heading::{PathHeading, camera_path};
 use self::plan::{Quantity, Series, measurements, series};
-use self::run::{CameraPath, Run};
+use self::run::{CameraPath, TreeRun};
 use self::tree_variant::TreeVariant;
 use crate::console::{self, open_adapter};
 use crate::extent::Extent;
@@ -44,7 +44,7 @@ pub struct Measurements {
     /// Plots; their points name runs.
     pub series: Vec<Line>,
     /// Everything that was measured, once each.
-    pub runs: Vec<Run>,
+    pub runs: Vec<TreeRun>,
 }
 
 /// A line in a plot of frame time.
@@ -61,7 +61,7 @@ pub struct Line {
 /// A point of a [`Line`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// Where it stands on the horizontal axis.
+    /// Its position on the horizontal axis.
     pub x: f64,
     /// Milliseconds of a frame, the mean over the cameras.
     pub frame_ms: f64,
@@ -129,7 +129,7 @@ impl Report for Measurements {
     }
 }
 
-fn lines(extent: Extent, runs: &[Run]) -> Vec<Line> {
+fn lines(extent: Extent, runs: &[TreeRun]) -> Vec<Line> {
     let line = |series: Series| {
         let point = |(scene, variant): &(String, TreeVariant)| {
             let run = compare::find(runs, scene, &variant.name())?;
@@ -151,21 +151,21 @@ fn lines(extent: Extent, runs: &[Run]) -> Vec<Line> {
 }
 
 /// A table for the terminal.
-fn rows(table: &compare::Table, runs: &[Run]) -> String {
+fn rows(table: &compare::Table, runs: &[TreeRun]) -> String {
     let headings =
         ["scene", "structure", "build ms", "frame ms", "times as fast", "paper", "kernels/ray"];
     let dash = || "–".to_owned();
     let row = |row: &Row| {
         let run = compare::find(runs, &row.scene, &row.variant);
-        let number = |of: fn(&Run) -> f64| run.map_or_else(dash, |run| decimal(of(run)));
+        let number = |of: fn(&TreeRun) -> f64| run.map_or_else(dash, |run| decimal(of(run)));
         vec![
             row.scene.clone(),
             row.variant.clone(),
             number(|run| run.build_ms.median),
-            number(Run::mean_ms),
+            number(TreeRun::mean_ms),
             row.ratio.map_or_else(dash, decimal),
             row.paper_ratio.map_or_else(dash, decimal),
-            number(Run::kernels_per_ray),
+            number(TreeRun::kernels_per_ray),
         ]
     };
     console::table(&headings, &table.rows.iter().map(row).collect::<Vec<_>>())

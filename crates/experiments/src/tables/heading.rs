@@ -1,4 +1,4 @@
-//! What every file of tables says first.
+//! The head of every file of tables.
 
 use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};

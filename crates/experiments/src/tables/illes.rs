@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use self::growth::{Growth, growth};
 use self::kernels::{KernelRow, kernels};
 use self::paper::{FIGURE_7, Printed, TABLE};
-use self::run::{Phases, Run, VARIANTS};
+use self::run::{ListRun, Phases, VARIANTS};
 use self::tables::Annotated;
 use crate::console::{self, open_adapter};
 use crate::extent::Extent;
@@ -59,7 +59,7 @@ pub const SMALL_ADAPTER: u64 = 2 << 30;
 /// A variant on a scene, with what the paper prints of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// The scene, as it was asked for.
+    /// The scene, as it was named.
     pub scene: String,
     /// The variant.
     #[serde(rename = "setting")]
@@ -69,7 +69,7 @@ pub struct Row {
     /// The paper's frames a second, where printed.
     pub paper_fps: Option<f64>,
     /// Ours.
-    pub run: Option<Run>,
+    pub run: Option<ListRun>,
     /// Why there is no run, or why its phases weigh otherwise than the paper's.
     pub why: Option<String>,
 }
@@ -163,7 +163,7 @@ fn measure(gpu: &Gpu, plan: &Plan, time: Option<Duration>) -> anyhow::Result<Mea
             measurer.rows(&mud, plan.view_size, plan.frames, None, Some(fps), |_| Ok(scene)),
         );
     }
-    // The first of the views has the size and the number of particles that memory is asked for.
+    // The first of the views has the size and the number of particles of the memory's table.
     let memory = views.iter().take(VARIANTS.len()).cloned().collect();
 
     let mut table = Vec::new();
@@ -231,7 +231,7 @@ impl Measurer<'_> {
         paper_fps: Option<f64>,
         load: impl FnOnce(&str) -> anyhow::Result<BenchScene>,
     ) -> Vec<Row> {
-        let row = |variant: &str, outcome: anyhow::Result<Run>| {
+        let row = |variant: &str, outcome: anyhow::Result<ListRun>| {
             let (run, why) = match outcome {
                 Ok(run) => {
                     let why = paper.map(|paper| explain(&run, &paper, self.software));
@@ -281,7 +281,7 @@ impl Measurer<'_> {
 }
 
 /// Where the weights of the phases differ most from the paper's, and what is known of the reason.
-fn explain(run: &Run, paper: &Phases, software: bool) -> String {
+fn explain(run: &ListRun, paper: &Phases, software: bool) -> String {
     let share = |phases: &Phases| {
         let sum: f64 = phases.named().iter().map(|(_, time)| time).sum();
         phases.named().map(|(name, time)| (name, 100.0 * time / sum.max(f64::MIN_POSITIVE)))

@@ -191,7 +191,7 @@ fn rows_of(scene: &PartResult) -> Vec<Vec<String>> {
     measured.runs.iter().enumerate().map(row).collect()
 }
 
-/// What stands beside the name of a variant. The paper's numbers and the CPU's are the first one's.
+/// The numbers of a variant. The paper's numbers and the CPU's are the first one's.
 fn cells(
     scene: &PartResult,
     measured: &Measured,
@@ -236,7 +236,7 @@ mod tests {
     use crate::testing::{assert_stands_alone, read_back};
 
     /// Everything is measured, the published variant errs no more than the paper's, and the page
-    /// stands alone.
+    /// needs nothing else.
     #[test]
     fn a_quick_run_fills_every_row() {
         let Some(gpu) = Gpu::for_test() else { return };
@@ -275,7 +275,7 @@ mod tests {
         assert_eq!(mean_and_most(1.25, 0), "–");
     }
 
-    /// What does not fit says so, in its row and on the page.
+    /// What does not fit is named in its row and on the page.
     #[test]
     fn what_is_left_out_is_named() {
         let planned = plan::plan(Extent::Whole, None).pop().expect("there are scenes");

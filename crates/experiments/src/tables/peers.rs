@@ -184,7 +184,7 @@ fn oracle(mut row: Vec<String>, measured: &Measured) -> Vec<String> {
     row
 }
 
-/// What stands beside the name of a tracer.
+/// The numbers of a tracer.
 fn cells(traced: &Traced, ratio: String) -> [String; 10] {
     let accuracy = &traced.accuracy;
     let dash = || "–".to_owned();
@@ -227,7 +227,7 @@ mod tests {
             assert_eq!(measured.ours.accuracy.wrong_verdicts(), 0, "{scene:?}");
             assert_eq!(traced.accuracy.wrong_verdicts(), 0, "{scene:?}");
             assert!(traced.hits > 100, "{scene:?}");
-            // Two channels of 16 bits, the fine one wrapping 4,096 times, tell the depth to 4e-9 of
+            // Two channels of 16 bits, the fine one wrapping 4,096 times, encode the depth to 4e-9 of
             // the range; what is left is its own error and an f32's.
             assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-5, "{scene:?}");
             assert_eq!(traced.trace_ms.samples.len(), 2);

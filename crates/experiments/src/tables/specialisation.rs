@@ -183,7 +183,7 @@ mod tests {
         assert!(page.contains("a radius each"));
     }
 
-    /// What a scene needs cannot be saved, and is said to be needed.
+    /// What a scene needs cannot be saved, and the reason says so.
     #[test]
     fn what_a_scene_needs_is_no_form() {
         let balls = [1.0, 2.0].map(|radius| Metaball::new([radius, 0.0, 0.0].into(), radius));

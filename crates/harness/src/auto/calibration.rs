@@ -12,7 +12,7 @@ use crate::configuration::Configuration;
 use crate::measure::{PreparedRenderer, Sampling, Timing, time_all, views};
 use crate::numbers::small;
 
-/// Pixels across of sparse pictures; as many down as the view's shape asks for.
+/// Pixels across of sparse pictures; as many down as the view's shape needs.
 const SPARSE_WIDTH: u32 = 96;
 
 /// Rays of a whole picture that are held against the oracle, spread evenly.
@@ -90,7 +90,7 @@ fn sparse_size(width: u32, height: u32) -> (u32, u32) {
     (across, u32::try_from(down).unwrap_or(height).clamp(1, height.max(1)))
 }
 
-/// Views a pixel or two beside this one.
+/// Views moved by a pixel or two from this one.
 fn nearby(
     scene: &Scene,
     view: &View,

@@ -76,7 +76,7 @@ pub struct Candidate<'a> {
 /// Candidates whose whole pictures are drawn at a time.
 pub const WHOLE_AT_A_TIME: usize = 4;
 
-/// A crude version is drawn only of what takes up to so many times as long as the quickest that is
+/// A crude version is drawn only of what takes at most so many times as long as the quickest that is
 /// right enough: no knob is known to save more.
 const CRUDE_SLACK: f64 = 1.5;
 
@@ -156,7 +156,7 @@ pub fn choose(
             measurement.frame_ms <= WHOLE_SLACK * first.frame_ms
         };
         let count = waiting.iter().take(WHOLE_AT_A_TIME).take_while(is_near).count();
-        // Whoever is first is no slower than itself, whatever its time.
+        // The first is no slower than itself, whatever its time.
         let (few, rest) = waiting.split_at(count.max(1));
         waiting = rest;
         let indices: Vec<_> = few.iter().map(|(index, _)| *index).collect();
@@ -219,7 +219,7 @@ mod tests {
         candidate("unable", None),
     ];
 
-    /// Pictures known beforehand, and who was asked for them.
+    /// Pictures known beforehand, and which were drawn.
     struct Known {
         sparse: Vec<Result<Measurement, String>>,
         whole: Vec<Result<Measurement, String>>,
@@ -335,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_chosen_where_nobody_will_do() {
+    fn none_is_chosen_where_none_will_do() {
         assert_eq!(chosen(1e-9).expect_err("too strict").len(), CANDIDATES.len());
         // No number is no small error.
         let broken = vec![measurement(f64::NAN, 0, 1.0), measurement(f64::INFINITY, 0, 1.0)];

@@ -19,7 +19,7 @@ pub struct ReferenceView<'a> {
 }
 
 impl<'a> ReferenceView<'a> {
-    /// Asks the oracle about at most so many rays, spread evenly.
+    /// With the oracle's truth about at most so many rays, spread evenly.
     ///
     /// # Errors
     /// When there are no targets of that size, or the device fails.
@@ -42,7 +42,7 @@ impl<'a> ReferenceView<'a> {
         Ok(Self { view, targets, truths, mean_radius: mean_radius(scene) })
     }
 
-    /// How far off the renderer's last picture is, which is to be of this view.
+    /// How far off the renderer's last picture is, which must be of this view.
     pub fn errors(&self, renderer: &PreparedRenderer) -> Errors {
         let pairs = self.truths.iter().map(|(pixel, truth)| (truth, &renderer.hits[*pixel]));
         Errors::of(pairs, self.mean_radius)

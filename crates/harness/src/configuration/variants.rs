@@ -6,15 +6,15 @@ use super::Configuration;
 use crate::methods::{Method, methods};
 use crate::technique::Technique;
 
-/// All of them, in the order of tables: variants stand behind their method, with a name in which
-/// the option stands behind a plus.
+/// All of them, in the order of tables: variants follow their method, with a name in which
+/// the option follows a plus.
 pub fn stability_configurations() -> Vec<Configuration> {
     let with_variant =
         |method: &'static Method| std::iter::once(method.into()).chain(variant(method));
     methods().iter().flat_map(with_variant).collect()
 }
 
-/// The one option of a method that is tried beside its preset.
+/// The one option of a method that is tried besides its preset.
 fn variant(method: &'static Method) -> Option<Configuration> {
     match method.technique {
         Technique::Peeling(preset) => {

@@ -1,4 +1,4 @@
-//! Where a ray enters and leaves supports, as far as f32 can tell: what depth peeling depends on.
+//! Where a ray enters and leaves supports, to the rounding of f32: what depth peeling depends on.
 
 use metaball_core::{Metaball, Ray, Scene};
 

@@ -1,7 +1,7 @@
 //! What a method promises of a ray, by its own paper.
 //!
-//! A published method may be wrong where its paper says so, and nowhere else. Whether a ray is such
-//! a place is decided here from the scene and the truth alone, never from what the method drew.
+//! A published method may be wrong where its paper says so, and nowhere else. Whether it may
+//! be wrong on a ray is decided here from the scene and the truth alone, never from what the method drew.
 
 use illes_fraglist::Piece;
 use metaball_core::reference::Truth;
@@ -57,7 +57,7 @@ impl Promise {
         if self == Self::Never {
             return false;
         }
-        // A start inside needs no projection: the first evaluation tells.
+        // A start inside needs no projection: the first evaluation decides.
         if truth.t == 0.0 || self == Self::Always {
             return true;
         }
@@ -71,13 +71,13 @@ impl Promise {
         })
     }
 
-    /// The field that the method puts in the place of the scene's, if it does.
+    /// The field that the method searches instead of the scene's, if it does.
     pub fn stand_in(self, scene: &Scene, ray: &Ray) -> Option<StandIn> {
         let Self::Fragments { piece, .. } = self else { return None };
         StandIn::new(piece, scene, ray)
     }
 
-    /// Whether the method may draw what its paper puts in the surface's place: by peeling, where
+    /// Whether the method may draw what its paper puts instead of the surface: by peeling, where
     /// a list is too short, and a point that is lost leaves its ball on the list for good; with
     /// fragment lists, where the array of separators is.
     pub fn allows_fallback(self, scene: &Scene, ray: &Ray, truth: &Truth) -> bool {

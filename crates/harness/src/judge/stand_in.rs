@@ -1,4 +1,4 @@
-//! A field that a method puts in the place of the scene's: how far from it, along one ray.
+//! A field that a method searches instead of the scene's: how far from it, along one ray.
 //!
 //! A hit of the stand-in τ is no root of the field F. But where τ is within δ of F all along a ray, a
 //! root of τ is a point where F is within δ of the threshold, and where the truth has a margin above
@@ -75,15 +75,15 @@ impl StandIn {
     }
 }
 
-/// Whether a ray's separators may be more than its array has room for. The array holds at most three
+/// Whether a ray's separators may be more than the capacity of its array. The array holds at most three
 /// of each ball that is taken from the list and not left behind; the balls up to one are taken when
 /// the ray is passed up to its effective distance.
-pub fn may_overflow(room: usize, scene: &Scene, ray: &Ray) -> bool {
+pub fn may_overflow(capacity: usize, scene: &Scene, ray: &Ray) -> bool {
     let mut chords = chords(scene, ray);
     chords.sort_by(|a, b| a.effective_distance.total_cmp(&b.effective_distance));
     chords.iter().enumerate().any(|(index, next)| {
         let kept = |chord: &&Chord| chord.middle + 1.001 * chord.half > next.effective_distance;
-        3 * chords[..index].iter().filter(kept).count() + 3 > room
+        3 * chords[..index].iter().filter(kept).count() + 3 > capacity
     })
 }
 

@@ -53,7 +53,7 @@ struct Ready {
 }
 
 impl Job<'_> {
-    /// What a frame's file says that it shows: all that its pixels depend on but the user's files.
+    /// What a frame's file describes: all that its pixels depend on but the user's files.
     pub(super) fn description(&self, number: u32) -> String {
         let DrawOptions { method, picture, light, .. } = self.options;
         format!(
@@ -101,7 +101,7 @@ impl Job<'_> {
             let mut frames = Vec::new();
             for _ in numbers {
                 let start = Instant::now();
-                // Without an answer the thread that builds has panicked: the scope goes on with that.
+                // Without an answer the thread that builds has panicked: the scope resumes that panic.
                 let Ok(prepared) = ready.recv() else { break };
                 let Ready { number, scene, mut renderer, load, build } = prepared?;
                 let waited = start.elapsed();
@@ -122,7 +122,7 @@ impl Job<'_> {
                         })
                     }
                 };
-                // After the last frame nobody waits for it.
+                // After the last frame none waits for it.
                 let _ = free_sender.send(renderer);
                 let frame = FrameReport { number, outcome };
                 after_frame(&frame);

@@ -24,7 +24,7 @@ const FLOOR_COLOR: Vec3 = Vec3::new(0.60, 0.56, 0.50);
 const TILES_PER_RADIUS: f32 = 5.0;
 
 /// Options of light; `None` and `false` leave an effect out, or to its default. Any of them asks for
-/// ray traced light in place of the shared Phong picture.
+/// ray traced light instead of the shared Phong picture.
 ///
 /// Shadows, occlusion, mirrored surfaces and refraction need a method that follows any ray, which the
 /// trees are; refraction needs the certified one.

@@ -22,7 +22,7 @@ pub struct PlannedScene {
     pub spec: String,
     /// Pixels across and down.
     pub size: (u32, u32),
-    /// Errors that are asked for, mean support radii.
+    /// Errors that are allowed, mean support radii.
     pub errors: &'static [f64],
 }
 
@@ -50,7 +50,7 @@ pub struct Drawn {
 /// What was chosen for an error, and what it is worth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JudgedChoice {
-    /// The error that was asked for, mean support radii.
+    /// The error that was allowed, mean support radii.
     pub max_error: f64,
     /// What was chosen, or why nothing was.
     pub choice: Result<Choice, String>,
@@ -77,7 +77,7 @@ impl PlannedScene {
         (self.errors.len() + configurations.len() * (1 + FRAMES.most)) as u64
     }
 
-    /// Chooses for each error as if nothing had been chosen before, then draws with everybody.
+    /// Chooses for each error as if nothing had been chosen before, then draws with all.
     pub(super) fn measure(
         &self,
         gpu: &Gpu,
@@ -109,7 +109,7 @@ impl PlannedScene {
         Ok(Measured { balls: bench.scene.len(), choices, all })
     }
 
-    /// Everybody's picture of one view, timed in turn.
+    /// All pictures of one view, timed in turn.
     fn draw_all(
         &self,
         gpu: &Gpu,
@@ -118,7 +118,7 @@ impl PlannedScene {
         progress: &ProgressBar,
     ) -> anyhow::Result<Vec<(String, Result<Drawn, String>)>> {
         let bounds = bench.scene.bounds();
-        // Choosing has drawn the view itself and the first few beside it; the last is another.
+        // Choosing has drawn the view itself and the first few near it; the last is another.
         let near = views(&bench.camera, &[], &bounds, self.size, 2 * FRAMES.most)?;
         let timed = &near[FRAMES.most..];
         let Some(unused) = timed.last() else { anyhow::bail!("needed a view, found none") };
@@ -179,7 +179,7 @@ fn best(all: &[(String, Result<Drawn, String>)], max_error: f64) -> Option<(Stri
 
 impl JudgedChoice {
     /// Time of the choice over that of the best, both of the view that no choice was made on. It is
-    /// below 1 where the choice does not keep the error there and nobody else is as quick.
+    /// below 1 where the choice does not keep the error there and nothing else is as quick.
     pub fn ratio(&self) -> Option<f64> {
         Some(self.drawn.as_ref()?.frame_ms / self.best.as_ref()?.1)
     }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::paper::{COUNTED, Counts, PRINTED, Printed, Rate};
 use super::paper_scene::PaperScene;
 use super::plan::{scaled_molecule, support_factors};
-use super::run::Run;
+use super::run::TreeRun;
 use super::tree_variant::TreeVariant;
 use crate::extent::Extent;
 use harness::numbers::decimal;
@@ -89,12 +89,12 @@ pub struct DensityRow {
 }
 
 /// The run of a variant on a scene.
-pub fn find<'a>(runs: &'a [Run], scene: &str, variant: &str) -> Option<&'a Run> {
+pub fn find<'a>(runs: &'a [TreeRun], scene: &str, variant: &str) -> Option<&'a TreeRun> {
     runs.iter().find(|run| run.scene == scene && run.variant == variant)
 }
 
 /// All tables of frame rates.
-pub fn tables(extent: Extent, runs: &[Run]) -> Vec<Table> {
+pub fn tables(extent: Extent, runs: &[TreeRun]) -> Vec<Table> {
     let table = |printed: &Printed| Table {
         name: printed.name.to_owned(),
         title: printed.title.to_owned(),
@@ -103,7 +103,7 @@ pub fn tables(extent: Extent, runs: &[Run]) -> Vec<Table> {
     PRINTED.iter().map(table).collect()
 }
 
-fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
+fn row(extent: Extent, runs: &[TreeRun], table: &Printed, rate: &Rate) -> Row {
     let scene = rate.scene.spec(extent);
     let first = table.rows.iter().find(|other| other.scene == rate.scene);
     let first = first.filter(|first| first.variant != rate.variant);
@@ -127,7 +127,7 @@ fn row(extent: Extent, runs: &[Run], table: &Printed, rate: &Rate) -> Row {
 }
 
 /// Table 3, with what was counted.
-pub fn work_table(extent: Extent, runs: &[Run]) -> Vec<WorkRow> {
+pub fn work_table(extent: Extent, runs: &[TreeRun]) -> Vec<WorkRow> {
     let scene = PaperScene::Tornado4k.spec(extent);
     let counted = |row: &Counts| {
         let work = find(runs, scene, &row.variant.name())?.work;
@@ -147,16 +147,16 @@ pub fn work_table(extent: Extent, runs: &[Run]) -> Vec<WorkRow> {
 }
 
 /// The molecule sparser and denser.
-pub fn density(extent: Extent, runs: &[Run]) -> Density {
+pub fn density(extent: Extent, runs: &[TreeRun]) -> Density {
     let row = |&factor: &f32| {
         let scene = scaled_molecule(factor);
         let run = |variant: TreeVariant| find(runs, &scene, &variant.name());
         let pair = run(TreeVariant::Modified).zip(run(TreeVariant::Fitted));
-        let ratio = |of: fn(&Run) -> f64| pair.map(|(slow, fast)| of(slow) / of(fast));
+        let ratio = |of: fn(&TreeRun) -> f64| pair.map(|(slow, fast)| of(slow) / of(fast));
         DensityRow {
             supports: factor,
-            time: ratio(Run::mean_ms),
-            kernels: ratio(Run::kernels_per_ray),
+            time: ratio(TreeRun::mean_ms),
+            kernels: ratio(TreeRun::kernels_per_ray),
             nodes: ratio(|run| run.work.nodes_per_ray),
             scene,
         }
@@ -235,14 +235,14 @@ fn notable(one: f64, other: f64) -> bool {
 }
 
 /// What the work counters say of a ratio of frame times that is notably not the paper's.
-fn explain(slow: &Run, fast: &Run, paper: f64) -> Option<String> {
+fn explain(slow: &TreeRun, fast: &TreeRun, paper: f64) -> Option<String> {
     let time = slow.mean_ms() / fast.mean_ms();
     if !notable(time, paper) {
         return None;
     }
-    let pair = |of: fn(&Run) -> f64| format!("{} to {}", decimal(of(slow)), decimal(of(fast)));
+    let pair = |of: fn(&TreeRun) -> f64| format!("{} to {}", decimal(of(slow)), decimal(of(fast)));
     let work = slow.kernels_per_ray() / fast.kernels_per_ray();
-    let counted = format!("{} kernels a ray (÷ {})", pair(Run::kernels_per_ray), decimal(work));
+    let counted = format!("{} kernels a ray (÷ {})", pair(TreeRun::kernels_per_ray), decimal(work));
     let lists = pair(|run| run.work.balls_per_ray);
     Some(if time > paper && work >= time / NOTABLE {
         let [slow, fast] = &COUNTED;
@@ -272,7 +272,7 @@ fn explain(slow: &Run, fast: &Run, paper: f64) -> Option<String> {
 }
 
 /// The part of the passes' time that goes to resumed rays.
-fn resumed(run: &Run) -> f64 {
+fn resumed(run: &TreeRun) -> f64 {
     let total: f64 = run.passes.values().sum();
     run.passes.get("resume").map_or(0.0, |resumed| resumed / total.max(f64::MIN_POSITIVE))
 }
@@ -285,8 +285,8 @@ mod tests {
     use crate::tables::gourmel::run::TreeSize;
     use harness::record::{Samples, WorkPerRay};
 
-    fn run(variant: &str, frame_ms: f64, evaluations_per_ray: f64) -> Run {
-        Run {
+    fn run(variant: &str, frame_ms: f64, evaluations_per_ray: f64) -> TreeRun {
+        TreeRun {
             scene: "pool-10k".to_owned(),
             balls: 10_000,
             variant: variant.to_owned(),

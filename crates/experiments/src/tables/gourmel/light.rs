@@ -11,7 +11,7 @@ use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
 use self::compare::{CostRow, GainRow};
-use self::run::Run;
+use self::run::EffectRun;
 use super::path_heading::{PathHeading, camera_path};
 use super::run::CameraPath;
 use crate::console::open_adapter;
@@ -35,7 +35,7 @@ pub struct Measurements {
     /// Table 1.
     pub gains: Vec<GainRow>,
     /// Everything that was measured, once each.
-    pub runs: Vec<Run>,
+    pub runs: Vec<EffectRun>,
 }
 
 /// Measures, prints the tables, and writes `gourmel-light.html` and `gourmel-light.json`.
@@ -133,7 +133,7 @@ mod tests {
         assert!(gains.iter().all(|row| row.fitted.is_some() && row.certified.is_some()));
         assert!(measurements.runs.iter().all(|run| run.frame_ms.samples.len() == 2));
         // Shadow and occlusion rays are sent where there are such effects, and nowhere else.
-        let has_shadow_rays = |run: &Run| run.passes.contains_key("any hits");
+        let has_shadow_rays = |run: &EffectRun| run.passes.contains_key("any hits");
         for run in &measurements.runs {
             let wanted = run.effect.contains("shadow") || run.effect.contains("occlusion");
             assert_eq!(has_shadow_rays(run), wanted, "{run:?}");

@@ -1,7 +1,7 @@
 //! `gourmel.html`: the tables for a person to read.
 
 use super::compare::{Density, Row, Table, WorkRow, find};
-use super::run::Run;
+use super::run::TreeRun;
 use super::{Line, Measurements, Point, density_table};
 use crate::html::{escape, section};
 use crate::page;
@@ -34,7 +34,7 @@ const RUN_HEADINGS: &str = "<th>Build<small>ms</small></th>\
      <th>Split<small>a leaf</small></th>\
      <th>Work<small>a ray: nodes, leaves, balls, kernels</small></th>";
 
-fn run_cells(run: Option<&Run>) -> String {
+fn run_cells(run: Option<&TreeRun>) -> String {
     let Some(run) = run else {
         return "<td class=\"reason\" colspan=\"5\">no result</td>".to_owned();
     };

@@ -1,4 +1,4 @@
-//! The scenes of Gourmel et al. 2010, and ours that stand for them.
+//! The scenes of Gourmel et al. 2010, and ours instead of them.
 
 use crate::extent::Extent;
 

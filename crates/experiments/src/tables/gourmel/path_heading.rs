@@ -14,7 +14,7 @@ use crate::page::{fact, software_remark};
 use crate::tables::Options;
 use crate::tables::heading::Heading;
 
-/// What a file of measurements along camera paths says first.
+/// The head of a file of measurements along camera paths.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PathHeading {
     /// As every file of tables.

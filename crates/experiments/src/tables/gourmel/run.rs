@@ -19,7 +19,7 @@ use harness::record::{Samples, WorkPerRay};
 
 /// A structure measured on a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Run {
+pub struct TreeRun {
     /// What was loaded.
     pub scene: String,
     /// Number of balls.
@@ -72,7 +72,7 @@ impl From<Stats> for TreeSize {
     }
 }
 
-impl Run {
+impl TreeRun {
     /// Milliseconds of a frame, the mean over the cameras.
     pub fn mean_ms(&self) -> f64 {
         let samples = &self.frame_ms.samples;
@@ -123,7 +123,7 @@ pub fn measure(
     variants: &[TreeVariant],
     path: CameraPath,
     progress: &ProgressBar,
-) -> anyhow::Result<Vec<anyhow::Result<Run>>> {
+) -> anyhow::Result<Vec<anyhow::Result<TreeRun>>> {
     let (loaded, factor) = subject(spec);
     let bench = load(loaded, &Overrides::default())?;
     let scene = &scaled(bench.scene, factor)?;
@@ -154,7 +154,7 @@ pub fn measure(
         let about = || format!("{spec}, {}", variant.name());
         let ((build_ms, tree), work) = prepared.with_context(about)?;
         let timing = timings.next().context("a timing for each renderer")?.with_context(about)?;
-        Ok(Run {
+        Ok(TreeRun {
             scene: spec.to_owned(),
             balls: scene.len(),
             variant: variant.name(),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::paper::TABLE;
-use super::run::{Phases, Run};
+use super::run::{ListRun, Phases};
 use harness::stats::exponent;
 
 /// Exponents e of time ~ Nᵉ, fitted to the logarithms by least squares.
@@ -46,7 +46,7 @@ impl Growth {
 }
 
 /// The paper's own numbers, over the particles that were measured here, and each variant's.
-pub fn growth(variants: &[&str], runs: &[Run]) -> Vec<Growth> {
+pub fn growth(variants: &[&str], runs: &[ListRun]) -> Vec<Growth> {
     let of = |variant: &str| -> Vec<(usize, Phases)> {
         let runs = runs.iter().filter(|run| run.variant == variant);
         runs.map(|run| (run.balls, run.phases)).collect()

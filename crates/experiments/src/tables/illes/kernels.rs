@@ -41,7 +41,7 @@ pub fn kernels() -> Vec<Kernel> {
     [Kernel::Wyvill, Kernel::Perlin].into_iter().chain(powers).collect()
 }
 
-/// Draws a scene with a kernel in place of its own, and compares every pixel.
+/// Draws a scene with a kernel instead of its own, and compares every pixel.
 ///
 /// # Errors
 /// When the scene does not load, or the adapter fails.

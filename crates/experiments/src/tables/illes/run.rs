@@ -14,7 +14,7 @@ use harness::measure::{PreparedRenderer, time_all, views};
 use harness::record::Samples;
 use harness::stats::{quantile, sorted};
 
-/// What is measured beside each other: name, gathering, sorting.
+/// What is measured side by side: name, gathering, sorting.
 pub const VARIANTS: [(&str, Gather, Sort); 3] = [
     ("illes", Gather::Raster, Sort::Host),
     ("illes, sorted on the device", Gather::Raster, Sort::Adapter),
@@ -39,7 +39,7 @@ pub struct Phases {
 
 /// A variant measured on a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Run {
+pub struct ListRun {
     /// What was loaded.
     pub scene: String,
     /// Number of balls.
@@ -151,7 +151,7 @@ pub fn measure(
     size: (u32, u32),
     frames: usize,
     mut stage: impl FnMut(&str),
-) -> anyhow::Result<Vec<anyhow::Result<Run>>> {
+) -> anyhow::Result<Vec<anyhow::Result<ListRun>>> {
     let scene = &bench.scene;
     let views = views(&bench.camera, &[], &scene.bounds(), size, frames.max(1))?;
     let targets = Targets::new(gpu, size.0, size.1, scene.colors().is_some(), false)?;
@@ -175,7 +175,7 @@ pub fn measure(
         let (renderer, timing) = timed.next().context("a timing for each renderer")?;
         let timing = timing.with_context(about)?;
         let scene_bytes = renderer.build.device_bytes;
-        Ok(Run {
+        Ok(ListRun {
             scene: bench.name.clone(),
             balls: scene.len(),
             variant: variant.to_owned(),

@@ -2,12 +2,12 @@
 
 use super::growth::Growth;
 use super::kernels::{KernelRow, Picture};
-use super::run::{Phases, Run};
+use super::run::{ListRun, Phases};
 use super::{Measurements, Row, SMALL_ADAPTER};
 use crate::table::{Column, Table};
 use harness::numbers::{decimal, grouped, small};
 
-/// A table with what has to be said about some of its rows.
+/// A table with notes on some of its rows.
 pub(super) struct Annotated {
     pub(super) table: Table,
     pub(super) notes: Vec<String>,
@@ -75,7 +75,7 @@ fn of_runs(
     title: &str,
     columns: &[Column],
     rows: &[Row],
-    cells: impl Fn(&Row, &Run) -> Vec<String>,
+    cells: impl Fn(&Row, &ListRun) -> Vec<String>,
 ) -> Table {
     let row = |row: &Row| {
         let cells = cells(row, row.run.as_ref()?);

@@ -34,7 +34,7 @@ pub const TABLE_1: &[TotalTime] = &[
     total(LARGE, 200_000, 5491.3, 980.4),
 ];
 
-/// Frames a second that section 6 gives for a scene, and our scene that stands in for it.
+/// Frames a second that section 6 gives for a scene, and our scene instead of it.
 pub const SHOWN: &[(&str, f64)] = &[
     ("random-1k", 23.1),
     ("two-merging", 150.0),

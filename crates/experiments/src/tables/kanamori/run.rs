@@ -68,7 +68,7 @@ pub struct GpuRun {
     /// Root of the mean square of (t − t*)/t* over rays that both hit; t* is the CPU's, clipped to
     /// 1e-6. `None`: there is no such ray.
     pub rel_rms_t: Option<f64>,
-    /// Rays of which only one says that they hit.
+    /// Rays that only one of the two hits.
     pub other_verdicts: usize,
 }
 

@@ -8,7 +8,7 @@ use metaball_core::gpu::IsoRenderer;
 pub enum Variant {
     /// As published, with the paper's grid of tiles for the picture's size.
     Published,
-    /// Polyhedra in the place of rectangles: section 5.1.
+    /// Polyhedra instead of rectangles: section 5.1.
     Tessellated,
     /// Every ball drawn, hidden or not: section 5.2.
     Unculled,

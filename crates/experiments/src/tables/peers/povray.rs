@@ -21,7 +21,7 @@ const SCENE_FILE: &str = "scene.pov";
 const PICTURE_FILE: &str = "picture.png";
 
 /// Periods of the fine channel over the range of the coarse one. A step of 16 bits in the coarse one
-/// is a sixteenth of a period, so the period is never in doubt.
+/// is a sixteenth of a period, so the period is never uncertain.
 const PERIODS: f64 = 4096.0;
 
 /// The installed program.
@@ -42,7 +42,7 @@ pub struct Times {
 }
 
 impl Povray {
-    /// Asks the program on the PATH for its version; `None` where there is none.
+    /// The program on the PATH, with its version; `None` where there is none.
     ///
     /// # Errors
     /// When there is one that cannot be run, or that does not say a version.
@@ -130,7 +130,7 @@ impl<'a> Job<'a> {
     }
 
     /// Runs the program in the folder, where it may write whatever its configuration forbids, and
-    /// gives what it said.
+    /// returns its output.
     fn draw(&self, depth: bool) -> anyhow::Result<String> {
         let mut command = Command::new(PROGRAM);
         command.current_dir(self.folder.path());
@@ -209,7 +209,7 @@ fn vector(vector: DVec3) -> String {
     format!("<{:e},{:e},{:e}>", vector.x, vector.y, vector.z)
 }
 
-/// The depth that a colour tells; `None` where nothing was hit.
+/// The depth that a colour encodes; `None` where nothing was hit.
 fn depth_of(Rgb([coarse, fine, blue]): Rgb<u16>, range: f64) -> Option<f64> {
     let share = |channel: u16| f64::from(channel) / f64::from(u16::MAX);
     let (coarse, fine) = (share(coarse), share(fine));
@@ -223,7 +223,7 @@ fn clocks(log: &str, heading: &str) -> anyhow::Result<(f64, f64)> {
     let wall = lines.next().and_then(|line| between(line, "(", " seconds)"));
     let cpu = lines.next().and_then(|line| between(line, "with ", " CPU-seconds"));
     let (wall, cpu) = wall.zip(cpu).with_context(|| {
-        format!("{PROGRAM}: needed \"{heading} … (… seconds)\" in what it says, found none")
+        format!("{PROGRAM}: needed \"{heading} … (… seconds)\" in its output, found none")
     })?;
     Ok((1e3 * wall, 1e3 * cpu))
 }
@@ -232,7 +232,7 @@ fn between(line: &str, before: &str, after: &str) -> Option<f64> {
     line.split_once(before)?.1.split_once(after)?.0.trim().parse().ok()
 }
 
-/// The last thing that it said, from its error on where it names one.
+/// The last line of its output, from its error on where it names one.
 fn complaint(log: &str) -> &str {
     let log = log.trim();
     let start = log.rfind("Error").or_else(|| log.rfind('\n')).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Both tracers on one scene, in turns, and the oracle's word on both.
+//! Both tracers on one scene, in turns, and both against the oracle.
 
 use std::fs;
 use std::time::Instant;
@@ -46,7 +46,7 @@ impl PlannedScene {
 pub struct Measured {
     /// Number of balls.
     pub balls: usize,
-    /// The scene's own kernel, in the place of which α = 2 was drawn.
+    /// The scene's own kernel, instead of which α = 2 was drawn.
     pub kernel: String,
     /// The certified tree.
     pub ours: Traced,

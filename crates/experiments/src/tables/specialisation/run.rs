@@ -1,4 +1,4 @@
-//! One method on one scene, specialised and as if the scene needed more, frame about.
+//! One method on one scene, specialised and as if the scene needed more, in alternate frames.
 
 use std::iter::zip;
 
@@ -18,7 +18,7 @@ use harness::record::Samples;
 pub struct Form {
     /// In tables.
     pub name: &'static str,
-    /// What the scene is told to need.
+    /// What the scene is generalized to.
     pub reads: &'static [Generality],
     /// Whether work is counted.
     pub counting: bool,
@@ -30,7 +30,7 @@ const fn reading(name: &'static str, reads: &'static [Generality], moot: &'stati
     Form { name, reads, counting: false, moot }
 }
 
-/// What is measured beside each other; the first is what everybody gets.
+/// What is measured side by side; the first is what every scene gets.
 pub const FORMS: [Form; 8] = [
     reading("specialised", &[], ""),
     reading("any kernel", &[Generality::Kernel], ""),
@@ -43,10 +43,14 @@ pub const FORMS: [Form; 8] = [
 ];
 
 impl Form {
-    /// The scene told as if it needed what this form reads; nothing where that changes nothing.
+    /// The scene as if it needed what this form reads; an error where that changes nothing.
     pub(super) fn scene(&self, scene: &Scene) -> Result<Scene, String> {
-        let told = self.reads.iter().fold(scene.clone(), |scene, &part| scene.generalized(part));
-        if !self.moot.is_empty() && told == *scene { Err(self.moot.to_owned()) } else { Ok(told) }
+        let general = self.reads.iter().fold(scene.clone(), |scene, &part| scene.generalized(part));
+        if !self.moot.is_empty() && general == *scene {
+            Err(self.moot.to_owned())
+        } else {
+            Ok(general)
+        }
     }
 }
 
@@ -149,7 +153,7 @@ impl PlannedScene {
         FORMS.len() as u64 + self.rounds as u64
     }
 
-    /// Measures all forms; one that cannot be drawn has its reason in its place.
+    /// Measures all forms; one that cannot be drawn has its reason instead.
     ///
     /// # Errors
     /// When the scene does not load or the specialised form cannot be drawn.
@@ -160,8 +164,8 @@ impl PlannedScene {
         let mut drawers = Vec::new();
         for form in &FORMS {
             progress.stage(format!("{}, {}: {}", self.spec, self.method.name, form.name));
-            drawers.push(form.scene(&scene).and_then(|told| {
-                Drawer::new(gpu, self.method, form, &told, first)
+            drawers.push(form.scene(&scene).and_then(|general| {
+                Drawer::new(gpu, self.method, form, &general, first)
                     .map_err(|error| format!("{error:#}"))
             }));
             progress.advance(1);

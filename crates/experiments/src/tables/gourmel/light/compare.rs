@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::effect::Effect;
 use super::paper::{COST_EFFECTS, COSTS, Costs, GAINS, Gain};
-use super::run::{PassKind, Run, Wanted};
+use super::run::{EffectRun, PassKind, Wanted};
 use crate::extent::Extent;
 use harness::numbers::decimal;
 
@@ -46,7 +46,12 @@ pub struct GainRow {
 }
 
 /// The run of a method with an effect.
-pub fn find<'a>(runs: &'a [Run], scene: &str, method: &str, effect: &str) -> Option<&'a Run> {
+pub fn find<'a>(
+    runs: &'a [EffectRun],
+    scene: &str,
+    method: &str,
+    effect: &str,
+) -> Option<&'a EffectRun> {
     runs.iter().find(|run| run.scene == scene && run.method == method && run.effect == effect)
 }
 
@@ -74,7 +79,7 @@ pub fn measurements(extent: Extent) -> Vec<(&'static str, Vec<Wanted>)> {
 }
 
 /// Table 2.
-pub fn costs(extent: Extent, runs: &[Run]) -> Vec<CostRow> {
+pub fn costs(extent: Extent, runs: &[EffectRun]) -> Vec<CostRow> {
     let rows = |printed: &Costs| {
         let scene = printed.scene.spec(extent);
         let row = |(&effect, fps): (&Effect, &f64)| {
@@ -102,7 +107,7 @@ pub fn costs(extent: Extent, runs: &[Run]) -> Vec<CostRow> {
 }
 
 /// Table 1.
-pub fn gains(extent: Extent, runs: &[Run]) -> Vec<GainRow> {
+pub fn gains(extent: Extent, runs: &[EffectRun]) -> Vec<GainRow> {
     let row = |printed: &Gain| {
         let (scene, effect) = (printed.scene.spec(extent), printed.effect.name());
         let modified = find(runs, scene, METHODS[0], &effect);
@@ -121,7 +126,7 @@ pub fn gains(extent: Extent, runs: &[Run]) -> Vec<GainRow> {
 }
 
 /// Where the time goes, in shares of a frame that is only ray cast.
-fn explain(run: &Run, cast: &Run) -> String {
+fn explain(run: &EffectRun, cast: &EffectRun) -> String {
     let whole = cast.frame_ms.median.max(f64::MIN_POSITIVE);
     let share = |kind: PassKind| {
         format!("{} {}", kind.name(), decimal((run.pass_ms(kind) - cast.pass_ms(kind)) / whole))
@@ -138,8 +143,8 @@ mod tests {
     use crate::tables::gourmel::paper_scene::PaperScene;
     use harness::record::Samples;
 
-    fn run(method: &str, effect: Effect, ms: f64) -> Run {
-        Run {
+    fn run(method: &str, effect: Effect, ms: f64) -> EffectRun {
+        EffectRun {
             scene: "molecule".to_owned(),
             balls: 5547,
             method: method.to_owned(),

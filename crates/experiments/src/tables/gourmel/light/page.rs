@@ -1,7 +1,7 @@
 //! `gourmel-light.html`: the tables for a person to read.
 
 use super::compare::CostRow;
-use super::run::{PassKind, Run};
+use super::run::{EffectRun, PassKind};
 use super::{Measurements, cost_table, gain_table};
 use crate::html::escape;
 use crate::page;
@@ -32,12 +32,12 @@ fn costs(rows: &[CostRow]) -> String {
     cost_table(rows).html() + &reasons
 }
 
-fn runs(runs: &[Run]) -> String {
+fn runs(runs: &[EffectRun]) -> String {
     let texts = ["scene", "structure", "effects"].map(Column::text).into_iter();
     let passes = PassKind::ALL.map(|kind| Column::number(kind.name()).of("ms"));
     let frame = [Column::number("frame").of("ms")];
     let columns = texts.chain(frame).chain(passes).chain([Column::number("undecided rays")]);
-    let row = |run: &Run| {
+    let row = |run: &EffectRun| {
         let frame = &run.frame_ms;
         let frame =
             format!("{} ({}–{})", decimal(frame.median), decimal(frame.p25), decimal(frame.p75));

@@ -19,7 +19,7 @@ use harness::stats::median;
 
 /// An effect drawn with a structure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Run {
+pub struct EffectRun {
     /// What was loaded.
     pub scene: String,
     /// Number of balls.
@@ -65,7 +65,7 @@ pub fn measure(
     wanted: &[Wanted],
     path: CameraPath,
     progress: &ProgressBar,
-) -> anyhow::Result<Vec<anyhow::Result<Run>>> {
+) -> anyhow::Result<Vec<anyhow::Result<EffectRun>>> {
     let bench = load(spec, &Overrides::default())?;
     let scene = &bench.scene;
     let views = views(&bench.camera, &bench.path, &scene.bounds(), path.size, path.cameras)?;
@@ -105,7 +105,7 @@ pub fn measure(
         }
         let frames = frames.map_err(anyhow::Error::msg).with_context(about)?;
         let middle = |(label, times): (String, Vec<f64>)| Some((label, median(&times)?));
-        Ok(Run {
+        Ok(EffectRun {
             scene: spec.to_owned(),
             balls: scene.len(),
             method: one.method.to_owned(),
@@ -144,7 +144,7 @@ impl Frames {
     }
 }
 
-impl Run {
+impl EffectRun {
     /// How many times as long a frame took as one of the other run, the middle over the cameras.
     pub fn times_as_long_as(&self, other: &Self) -> Option<f64> {
         let pairs = self.frame_ms.samples.iter().zip(&other.frame_ms.samples);
