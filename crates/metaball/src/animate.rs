@@ -173,7 +173,8 @@ pub fn animate(
     let frames =
         job.draw(&missing, options.in_turn, |frame| on_event(AnimationEvent::Done(frame)))?;
 
-    let report = AnimationReport::new(&job, options, kept, frames, start.elapsed());
+    let report =
+        AnimationReport::new((job.scene.name(), job.gpu), options, kept, frames, start.elapsed());
     let path = options.out.path(numbers[0]).with_extension("json");
     let json = serde_json::to_vec_pretty(&report).map_err(|source| PictureFileError::Encode {
         what: path.display().to_string(),
