@@ -19,6 +19,24 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Stable name in tables and on command lines: `bvh`, `fbvh`, `fbvh-certified`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ModifiedBvh => "bvh",
+            Self::Fitted => "fbvh",
+            Self::Certified => "fbvh-certified",
+        }
+    }
+
+    /// Where it was published.
+    pub const fn source(self) -> &'static str {
+        match self {
+            Self::ModifiedBvh => "Gourmel et al. 2010, section 4",
+            Self::Fitted => "Gourmel et al. 2010, section 5",
+            Self::Certified => "not published: exact ranges instead of the paper's assumption",
+        }
+    }
+
     /// Whether the paper has it, whose leaves are searched by its section 3.
     pub(crate) const fn is_published(self) -> bool {
         matches!(self, Self::ModifiedBvh | Self::Fitted)

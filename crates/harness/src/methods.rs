@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use fbvh::{Options, SecantSearch};
+use fbvh::{Kind, Options, SecantSearch};
 use illes_fraglist::{Gather, Piece};
 use metaball_core::gpu::IsoRenderer;
 use thiserror::Error;
@@ -31,25 +31,25 @@ pub const HEADLINERS: &[&str] = &["bvh", "fbvh", "fbvh-certified", "kanamori", "
 /// The methods of this workspace, in the order of tables.
 const METHODS: &[Method] = &[
     Method {
-        name: "bvh",
+        name: Kind::ModifiedBvh.name(),
         title: "Modified BVH",
-        paper: "Gourmel et al. 2010, section 4",
+        paper: Kind::ModifiedBvh.source(),
         about: "A hierarchy whose leaves own their balls and name all others that reach in; boxes \
                 overlap, and a ray continues until no nearer leaf is left.",
         technique: Technique::Tree(Options::modified_bvh(), Some(SecantSearch::DEFAULT)),
     },
     Method {
-        name: "fbvh",
+        name: Kind::Fitted.name(),
         title: "Fitted BVH",
-        paper: "Gourmel et al. 2010, section 5",
+        paper: Kind::Fitted.source(),
         about: "Balls are split among leaves whose fitted boxes do not overlap; the first hit ends \
                 the ray.",
         technique: Technique::Tree(Options::fitted(), Some(SecantSearch::DEFAULT)),
     },
     Method {
-        name: "fbvh-certified",
+        name: Kind::Certified.name(),
         title: "Certified FBVH",
-        paper: "not published: exact ranges instead of the paper's assumption",
+        paper: Kind::Certified.source(),
         about: "Boxes in which the field stays below or above the threshold are dropped or solid; \
                 the others are searched by exact bounds, so that no answer is wrong.",
         technique: Technique::Tree(Options::certified(), None),

@@ -1,6 +1,6 @@
 //! Who finds the surface.
 
-use fbvh::{Kind, Options};
+use fbvh::Options;
 use metaball_core::gpu::IsoRenderer;
 
 /// A method of finding the surface along rays.
@@ -38,7 +38,7 @@ impl Method {
     /// Stable name, as on the command line.
     pub fn name(&self) -> &str {
         match self {
-            Self::Tree(options) => tree_name(options.kind()),
+            Self::Tree(options) => options.kind().name(),
             #[cfg(feature = "harness")]
             Self::Listed(configuration) => &configuration.name,
             #[cfg(feature = "harness")]
@@ -62,7 +62,7 @@ impl Method {
     pub(crate) fn renderer(&self, counting: bool) -> Option<Box<dyn IsoRenderer>> {
         match self {
             Self::Tree(options) => {
-                let name = tree_name(options.kind());
+                let name = options.kind().name();
                 Some(Box::new(fbvh::gpu::Renderer::new(name, *options, counting)))
             }
             #[cfg(feature = "harness")]
@@ -75,28 +75,12 @@ impl Method {
     /// What drew, as names and texts.
     pub(crate) fn account(&self) -> Vec<(&'static str, String)> {
         let paper = match self {
-            Self::Tree(options) => tree_paper(options.kind()),
+            Self::Tree(options) => options.kind().source(),
             #[cfg(feature = "harness")]
             Self::Listed(configuration) => configuration.method.paper,
             #[cfg(feature = "harness")]
             Self::Auto(_) => "",
         };
         vec![("method", format!("{} ({paper})", self.name()))]
-    }
-}
-
-fn tree_name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::ModifiedBvh => "bvh",
-        Kind::Fitted => "fbvh",
-        Kind::Certified => "fbvh-certified",
-    }
-}
-
-fn tree_paper(kind: Kind) -> &'static str {
-    match kind {
-        Kind::ModifiedBvh => "Gourmel et al. 2010, section 4",
-        Kind::Fitted => "Gourmel et al. 2010, section 5",
-        Kind::Certified => "not published: exact ranges instead of the paper's assumption",
     }
 }
