@@ -39,7 +39,8 @@ pub struct Measurements {
     pub tables: Vec<compare::Table>,
     /// Table 3.
     pub work_table: Vec<WorkRow>,
-    /// What the gain on the molecule depends on.
+    /// What the gain on the molecule depends on; nothing in files from before it was measured.
+    #[serde(default)]
     pub density: Density,
     /// Plots; their points name runs.
     pub series: Vec<Line>,

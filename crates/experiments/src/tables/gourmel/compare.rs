@@ -63,7 +63,7 @@ pub struct WorkRow {
 }
 
 /// Not in the paper: what table 1's gain on the molecule depends on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Density {
     /// How many times as fast the Fitted BVH is in the paper.
     pub paper_ratio: f64,
