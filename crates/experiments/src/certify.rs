@@ -2,7 +2,7 @@
 //!
 //! Scenes are every stability case within the stated limits, then arbitrary ones by seed. The rays of each
 //! are a picture's, others at its balls, along its surface, along the faces of the tree's boxes, and out of
-//! the solid. The CPU's tracer answers all of them, the shaders a third; nobody may be wrong about a ray
+//! the solid. The CPU's tracer answers all of them, the shaders a third; neither may be wrong on a ray
 //! that is clear to the oracle.
 
 pub mod adapter;

@@ -90,7 +90,7 @@ impl PreparedRenderer {
         Ok(())
     }
 
-    /// Bytes that it holds on the device by now, for the scene and for its frames.
+    /// Bytes that it holds on the adapter by now, for the scene and for its frames.
     pub fn device_bytes(&self) -> u64 {
         self.build.device_bytes + self.renderer.frame_bytes()
     }

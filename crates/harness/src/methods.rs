@@ -90,7 +90,7 @@ const METHODS: &[Method] = &[
         name: "illes-exact",
         title: "Fragment lists, exact polynomials",
         paper: "Illés and Szécsi, Efficient GPU Fluid Visualization, section 3",
-        about: "The same with the field's own polynomial, of degree four or six, in place of the \
+        about: "The same with the field's own polynomial, of degree four or six, instead of the \
                 cubic.",
         technique: fragment_lists(Piece::Exact),
     },

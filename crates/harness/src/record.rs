@@ -145,9 +145,9 @@ pub struct Measured {
     /// Host time for the structure of the scene, milliseconds; pipelines, which many scenes share, are
     /// left out.
     pub build_ms: f64,
-    /// Bytes sent to the device by the build.
+    /// Bytes sent to the adapter by the build.
     pub upload_bytes: u64,
-    /// Bytes that the method holds on the device, for the scene and for its frames; the shared targets
+    /// Bytes that the method holds on the adapter, for the scene and for its frames; the shared targets
     /// are not among them.
     pub device_bytes: u64,
     /// From the start of encoding to the fence.

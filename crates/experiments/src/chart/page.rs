@@ -202,7 +202,7 @@ fn growth_sections(chart: &Chart) -> String {
         let quantities: [(&str, Quantity); 3] = [
             ("frame time, ms", |measured| measured.frame_ms.median),
             ("build time, ms", |measured| measured.build_ms),
-            ("bytes on the device", |measured| measured.device_bytes as f64),
+            ("bytes on the adapter", |measured| measured.device_bytes as f64),
         ];
         let plots: String = quantities
             .iter()
@@ -245,7 +245,7 @@ fn density_section(chart: &Chart) -> String {
     let density = |group: &Group| group.density;
     let quantities: [(&str, Quantity); 2] = [
         ("frame time, ms", |measured| measured.frame_ms.median),
-        ("bytes on the device", |measured| measured.device_bytes as f64),
+        ("bytes on the adapter", |measured| measured.device_bytes as f64),
     ];
     let plots: String = quantities
         .iter()

@@ -28,13 +28,13 @@ pub struct Planned {
     pub purpose: Purpose,
     /// What to load.
     pub spec: String,
-    /// Who takes part.
+    /// The configurations that take part.
     pub configurations: Vec<Configuration>,
 }
 
 /// What growth and density are measured of: the published families, and what is faster; methods from
 /// outside of this workspace join them.
-const CONTESTANTS: &[&str] =
+const GROWTH_METHODS: &[&str] =
     &["bvh", "fbvh", "fbvh-certified", "kanamori", "illes", "illes-compute"];
 
 /// Everything to measure, in order. `scenes` are those of the charts of error; where there are none,
@@ -59,7 +59,7 @@ pub fn plan(extent: Extent, scenes: &[String], chosen: &[&Method]) -> Vec<Planne
     };
     let errors: Vec<_> = errors.into_iter().filter(takes_part).collect();
     let own = methods().iter().filter(|method| matches!(method.technique, Technique::Own(_)));
-    let named = sweeps::presets(CONTESTANTS).into_iter().chain(own.map(Configuration::preset));
+    let named = sweeps::presets(GROWTH_METHODS).into_iter().chain(own.map(Configuration::preset));
     let presets: Vec<_> = named.filter(takes_part).collect();
     let scenes: Vec<_> = match scenes {
         [] => known.iter().map(|&name| name.to_owned()).collect(),

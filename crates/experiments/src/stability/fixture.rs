@@ -35,7 +35,7 @@ struct Tested {
 }
 
 impl<'a> Fixture<'a> {
-    /// For configurations that are held to what they promise. Nothing is made yet on the device.
+    /// For configurations that are held to what they promise. Nothing is made yet on the adapter.
     pub fn new(gpu: &'a Gpu, configurations: impl IntoIterator<Item = Configuration>) -> Self {
         let with_terms = |configuration: Configuration| {
             let terms = configuration.technique.terms();

@@ -199,7 +199,7 @@ mod tests {
     use harness::configuration::variants::stability_configurations;
 
     #[test]
-    fn every_limit_is_of_an_entrant_and_at_values_of_a_case() {
+    fn every_limit_is_of_a_configuration_and_at_values_of_a_case() {
         for (method, limits) in LIMITS {
             assert!(
                 stability_configurations()

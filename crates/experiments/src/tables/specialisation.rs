@@ -105,7 +105,7 @@ fn table(scenes: &[SceneForms]) -> Table {
         Column::number("frame").of("ms"),
         Column::number("times"),
         Column::number("quartiles"),
-        Column::number("device").of("KiB"),
+        Column::number("adapter").of("KiB"),
         Column::number("code"),
         Column::number("other pixels"),
     ];

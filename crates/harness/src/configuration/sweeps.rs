@@ -158,7 +158,7 @@ fn peeling(method: &'static Method, preset: kanamori_peel::Options) -> Vec<Confi
         ("tiles", "1", Options { tiles: 1, ..preset }),
         ("tiles", "4", Options { tiles: 4, ..preset }),
         ("tiles", "16", Options { tiles: 16, ..preset }),
-        ("registration", "device", Options { registration: Registration::Adapter, ..preset }),
+        ("registration", "adapter", Options { registration: Registration::Adapter, ..preset }),
     ];
     let configuration = |(option, value, options)| {
         Configuration::with(method, option, value, Technique::Peeling(options))
@@ -173,7 +173,7 @@ fn fragment_lists(method: &'static Method, preset: illes_fraglist::Options) -> V
         ("array", "6", Options { array_capacity: 6, ..preset }),
         ("array", "12", Options { array_capacity: 12, ..preset }),
         ("array", "24", Options { array_capacity: 24, ..preset }),
-        ("sort", "device", Options { sort: Sort::Adapter, ..preset }),
+        ("sort", "adapter", Options { sort: Sort::Adapter, ..preset }),
     ];
     let configuration = |(option, value, options)| {
         Configuration::with(method, option, value, Technique::Fragments(options))

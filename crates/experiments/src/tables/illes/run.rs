@@ -17,7 +17,7 @@ use harness::stats::{quantile, sorted};
 /// What is measured side by side: name, gathering, sorting.
 pub const VARIANTS: [(&str, Gather, Sort); 3] = [
     ("illes", Gather::Raster, Sort::Host),
-    ("illes, sorted on the device", Gather::Raster, Sort::Adapter),
+    ("illes, sorted on the adapter", Gather::Raster, Sort::Adapter),
     ("illes-compute", Gather::Tiles, Sort::Host),
 ];
 

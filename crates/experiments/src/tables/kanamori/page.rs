@@ -72,7 +72,7 @@ fn plot(scene: &PartResult) -> Option<String> {
     Some(format!("<h2>Time against error: {}</h2>\n{drawn}", escape(&scene.measured.scene)))
 }
 
-/// Where the time goes: on the CPU between its two phases, on the device between the passes.
+/// Where the time goes: on the CPU between its two phases, on the adapter between the passes.
 fn figure_8(scenes: &[PartResult]) -> String {
     let row = |(scene, measured): (&PartResult, &Measured)| {
         let gpu = measured.runs.first()?.result.as_ref().ok()?;

@@ -94,10 +94,10 @@ pub fn plan(extent: Extent, size: Option<(u32, u32)>) -> Vec<PlannedScene> {
 
 fn optimizations(is_quick: bool) -> Vec<Variant> {
     use Variant::{
-        Iterative, Original, Published, RegisteredOnDevice, Tessellated, Tiles, Unculled,
+        Iterative, Original, Published, RegisteredOnAdapter, Tessellated, Tiles, Unculled,
     };
     let one_each = [Published, Tessellated, Unculled, Tiles(1), Iterative];
-    let others = [Tiles(8), Tiles(16), RegisteredOnDevice, Original];
+    let others = [Tiles(8), Tiles(16), RegisteredOnAdapter, Original];
     one_each.into_iter().chain(others.into_iter().filter(|_| !is_quick)).collect()
 }
 

@@ -14,8 +14,8 @@ pub enum Variant {
     Unculled,
     /// So many tiles on a side: section 5.3.
     Tiles(u32),
-    /// Balls registered with tiles on the device, not on the host: section 5.3.
-    RegisteredOnDevice,
+    /// Balls registered with tiles on the adapter, not on the host: section 5.3.
+    RegisteredOnAdapter,
     /// Clipping with the short memory that the paper compares with: section 5.4.
     Iterative,
     /// Clipping by the original recursion: section 5.4.
@@ -35,7 +35,7 @@ impl Variant {
             Self::Unculled => "5.2: all balls drawn".to_owned(),
             Self::Tiles(1) => "5.3: one tile".to_owned(),
             Self::Tiles(tiles) => format!("5.3: {tiles} × {tiles} tiles"),
-            Self::RegisteredOnDevice => "5.3: registered on the device".to_owned(),
+            Self::RegisteredOnAdapter => "5.3: registered on the adapter".to_owned(),
             Self::Iterative => "5.4: iterative clipping".to_owned(),
             Self::Original => "5.4: original clipping".to_owned(),
             Self::Threshold(threshold) => format!("threshold {threshold:e}"),
@@ -61,7 +61,7 @@ impl Variant {
             Self::Tessellated => Options { outline: Outline::Tessellation, ..published },
             Self::Unculled => Options { culling: false, ..published },
             Self::Tiles(tiles) => Options { tiles, ..published },
-            Self::RegisteredOnDevice => {
+            Self::RegisteredOnAdapter => {
                 Options { registration: Registration::Adapter, ..published }
             }
             Self::Iterative => Options { clipping: Clipping::Iterative, ..published },

@@ -96,7 +96,7 @@ pub struct Measured {
     pub frame_ms: Samples,
     /// Each frame's time over that of the specialised frame of the same round and camera.
     pub times: Samples,
-    /// Bytes on the device: the scene, the method's own, and what a frame is drawn to.
+    /// Bytes on the adapter: the scene, the method's own, and what a frame is drawn to.
     pub device_bytes: u64,
     /// Expressions and statements of all the method's shaders, before the driver sees them.
     pub code: u64,
