@@ -4,7 +4,7 @@
 // A ball adds q k(1 - r^2/R^2), whose slope along any direction is at most 2 q k'/R at its steepest.
 
 #import color::{blend_add, blend_start, blend_write}
-#import core::field::{contribution, depth_below_rim, gradient, offset_at}
+#import core::field::{contribution, depth_below_rim, gradient, offset_at, outward_normal}
 #import core::hit::{write_hit, write_miss, HIT, INSIDE, UNDECIDED}
 #import core::scene::scene
 #import core::view::{in_picture, pixel_at, rays, view}
@@ -93,7 +93,5 @@ fn surface(pixel: u32, direction: vec3<f32>, t: f32, status: u32) {
         }
     }
     blend_write(pixel);
-    // In the middle of a ball there is no slope, and any normal will do.
-    let size = length(rise);
-    write_hit(pixel, t, select(-direction, -rise / size, size > 0.0), status);
+    write_hit(pixel, t, outward_normal(rise, direction), status);
 }
