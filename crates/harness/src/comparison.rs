@@ -394,7 +394,7 @@ mod tests {
         technique: Technique::Own(Own {
             make: |_| Box::new(Unable),
             promise: Promise::Always,
-            stop: Stop::ROUNDING,
+            stop: Stop::Rounding,
             refuses: |_| None,
         }),
     };

@@ -30,11 +30,9 @@ pub enum Stop {
     Residual(f64),
     /// |t − t*| over the smallest support radius at the hit.
     Distance(f64),
-}
-
-impl Stop {
-    /// At a root to rounding.
-    pub const ROUNDING: Self = Self::Residual(0.0);
+    /// At the root, as far as f32 tells: off by what rounding does to the field once more, where t is
+    /// stored after the search.
+    Rounding,
 }
 
 impl Terms {
@@ -224,6 +222,7 @@ impl<'a> Judge<'a> {
         let slack = rounding.of_field
             + match terms.stop {
                 Stop::Residual(residual) => residual * threshold,
+                Stop::Rounding => rounding.of_field,
                 Stop::Distance(distance) => {
                     distance * f64::from(truth.smallest_radius) * rounding.slope
                 }
@@ -250,6 +249,7 @@ impl<'a> Judge<'a> {
         let allowed = rounding.of_field
             + match terms.stop {
                 Stop::Residual(residual) => residual * threshold,
+                Stop::Rounding => rounding.of_field,
                 Stop::Distance(allowed) if distance <= allowed => f64::INFINITY,
                 Stop::Distance(_) => 0.0,
             };

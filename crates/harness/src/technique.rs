@@ -97,11 +97,11 @@ impl Technique {
     pub fn stop(&self) -> Stop {
         match *self {
             Self::Tree(_, Some(search)) => Stop::Residual(search.tolerance.into()),
-            Self::Tree(_, None) => Stop::ROUNDING,
+            Self::Tree(_, None) => Stop::Rounding,
             // Half the threshold, times an interval of at most two radii, and ten roundings of a
             // distance of a few radii.
             Self::Peeling(options) => Stop::Distance(f64::from(options.threshold) + 9e-6),
-            Self::TileSearch => Stop::ROUNDING,
+            Self::TileSearch => Stop::Rounding,
             // A piece is no longer than a radius.
             Self::Fragments(_) => Stop::Distance(illes_fraglist::ROOT_TOLERANCE),
             Self::Own(own) => own.stop,
