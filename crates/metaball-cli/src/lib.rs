@@ -88,7 +88,9 @@ pub fn run() -> ExitCode {
 ///
 /// ```no_run
 /// # use metaball_core::gpu::IsoRenderer;
-/// # fn renderer(_counting: bool) -> Box<dyn IsoRenderer> { unimplemented!() }
+/// # fn renderer(counting: bool) -> Box<dyn IsoRenderer> {
+/// #     harness::methods::methods()[0].renderer(counting)
+/// # }
 /// use std::process::ExitCode;
 ///
 /// use metaball_cli::{Method, Own, Promise, Stop, Technique};
