@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::Vec3;
 use metaball_core::{Aabb, Camera, Scene};
-use particle_files::{Overrides, PackedFrames, Sequence, framing};
+use particle_files::{AnimatedScene, BoxError, Overrides, PackedFrames, Sequence, framing};
 
 use crate::error::LoadError;
 use crate::generate::{self, Recipe};
@@ -115,6 +115,32 @@ impl Moving {
         let (name, camera) = (sequence.name().to_owned(), *sequence.camera());
         let frames = sequence.frames();
         Self::new(name, Motion::Sequence(sequence), frames, camera)
+    }
+}
+
+impl AnimatedScene for Moving {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn description(&self) -> String {
+        format!("{} with {:?}", self.name, self.overrides)
+    }
+
+    fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    fn frames(&self) -> Range<u32> {
+        self.frames.clone()
+    }
+
+    fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
+        Ok(self.present(range)?)
+    }
+
+    fn frame(&self, number: u32) -> Result<Scene, BoxError> {
+        Ok(self.frame(number)?)
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use anyhow::{Context, bail, ensure};
-use bench_scenes::load;
+use bench_scenes::{Moving, load};
 use clap::Args;
 use experiments::console::{self, ProgressBar};
 use harness::auto::MAX_ERROR;
@@ -19,7 +19,6 @@ use metaball_core::{Color, Picture, Scene};
 
 use crate::camera::CameraArgs;
 use crate::light::LightArgs;
-use crate::motion::Motion;
 use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
 use crate::picture::{color_of, picture_named};
 use crate::shared::PictureArgs;
@@ -197,10 +196,10 @@ impl AnimateArgs {
             "auto chooses for one picture: for frames name a method"
         );
         let Request { scene, overrides, options: draw } = drawing.request(None)?;
-        let motion = Motion::load(&scene, &overrides)?;
+        let moving = Moving::load(&scene, &overrides)?;
         let options = AnimateOptions { draw, frames, every, out, sheet, force, in_turn };
         let mut progress = None;
-        let (report, path) = animate(&motion, &options, |event| match event {
+        let (report, path) = animate(&moving, &options, |event| match event {
             AnimationEvent::Begins { missing, kept, absent } => {
                 if absent > 0 {
                     console::note(&format!("{scene} has no frame for {absent} numbers"));

@@ -8,7 +8,6 @@ mod draw;
 mod light;
 mod list;
 mod measure;
-mod motion;
 mod names;
 mod picture;
 mod shared;

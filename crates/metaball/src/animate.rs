@@ -7,71 +7,13 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use metaball_core::{Camera, Scene, View};
-use particle_files::{NumberedPath, Sequence};
+use metaball_core::View;
+use particle_files::{AnimatedScene, NumberedPath};
 use picture_files::{PictureFileError, description_in_png, write_atomically, write_sheet};
 
 use self::pipeline::Job;
 pub use self::report::{AnimationReport, FrameOutcome, FrameReport, FrameTimes};
 use crate::{DrawOptions, Error};
-
-/// Any error of an [`AnimatedScene`].
-pub type BoxError = Box<dyn std::error::Error + Send + Sync>;
-
-/// A scene for each frame. Frames are independent: any may be asked for, in any order and from any
-/// thread, and is the same each time.
-pub trait AnimatedScene: Sync {
-    /// What moves, for people.
-    fn name(&self) -> &str;
-
-    /// All that its frames depend on except the content of files: a frame is kept from an earlier run
-    /// only if this was the same then.
-    fn description(&self) -> String;
-
-    /// A camera for all frames.
-    fn camera(&self) -> &Camera;
-
-    /// The frames that it has; where it never ends, its first seconds.
-    fn frames(&self) -> Range<u32>;
-
-    /// The numbers of frames in a range for which there is something to draw.
-    ///
-    /// # Errors
-    /// When that cannot be found out.
-    fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError>;
-
-    /// The scene of a frame.
-    ///
-    /// # Errors
-    /// When there is none; does not stop the other frames.
-    fn frame(&self, number: u32) -> Result<Scene, BoxError>;
-}
-
-impl AnimatedScene for Sequence {
-    fn name(&self) -> &str {
-        self.name()
-    }
-
-    fn description(&self) -> String {
-        format!("{} with {:?}", self.name(), self.overrides())
-    }
-
-    fn camera(&self) -> &Camera {
-        self.camera()
-    }
-
-    fn frames(&self) -> Range<u32> {
-        self.frames()
-    }
-
-    fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
-        Ok(self.present(range)?)
-    }
-
-    fn frame(&self, number: u32) -> Result<Scene, BoxError> {
-        Ok(self.frame(number)?)
-    }
-}
 
 /// Which frames to draw, how, and where to.
 #[derive(Debug, Clone)]
@@ -210,47 +152,13 @@ mod tests {
 
     use bench_scenes::{Moving, Overrides};
     use metaball_core::gpu::{AdapterChoice, Gpu};
+    use particle_files::Sequence;
 
     use super::*;
     use crate::{Backend, LightOptions};
 
-    /// A scene that moves without a file.
-    pub(super) struct Tornado {
-        moving: Moving,
-        overrides: Overrides,
-    }
-
-    impl Tornado {
-        pub(super) fn load(spec: &str, overrides: &Overrides) -> Self {
-            let moving = Moving::load(spec, overrides).expect("a scene that moves");
-            Self { moving, overrides: *overrides }
-        }
-    }
-
-    impl AnimatedScene for Tornado {
-        fn name(&self) -> &str {
-            &self.moving.name
-        }
-
-        fn description(&self) -> String {
-            format!("{} with {:?}", self.moving.name, self.overrides)
-        }
-
-        fn camera(&self) -> &Camera {
-            &self.moving.camera
-        }
-
-        fn frames(&self) -> Range<u32> {
-            self.moving.frames.clone()
-        }
-
-        fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
-            Ok(self.moving.present(range)?)
-        }
-
-        fn frame(&self, number: u32) -> Result<Scene, BoxError> {
-            Ok(self.moving.frame(number)?)
-        }
+    fn moving(spec: &str) -> Moving {
+        Moving::load(spec, &Overrides::default()).expect("a scene that moves")
     }
 
     fn folder() -> tempfile::TempDir {
@@ -276,7 +184,7 @@ mod tests {
 
     /// The pictures do not depend on the order, the threads or the runs that they were made in.
     fn same_frames_however_made(backend: &Backend) {
-        let tornado = Tornado::load("tornado:300", &Overrides::default());
+        let tornado = moving("tornado:300");
         let folders = [folder(), folder(), folder()];
         let [piped, in_turn, resumed] = folders.each_ref().map(tempfile::TempDir::path);
         let options = |folder: &Path| options(backend.clone(), folder);
@@ -320,7 +228,7 @@ mod tests {
         if Gpu::for_test().is_none() {
             return;
         }
-        let tornado = Tornado::load("tornado:100", &Overrides::default());
+        let tornado = moving("tornado:100");
         let lit = |light: LightOptions, in_turn| {
             let folder = folder();
             let mut options = options(Backend::default(), folder.path());

@@ -5,11 +5,9 @@ use std::ops::Range;
 use metaball_core::gpu::{GpuError, RenderError};
 use metaball_core::{CameraError, ViewError};
 use metaball_light::PanoramaError;
-use particle_files::LoadError;
+use particle_files::{BoxError, LoadError};
 use picture_files::PictureFileError;
 use thiserror::Error;
-
-use crate::BoxError;
 
 /// Why there is no picture. Every text names the thing, what was needed and what was found.
 #[derive(Debug, Error)]

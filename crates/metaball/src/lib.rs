@@ -41,8 +41,7 @@ mod shade;
 mod viewpoint;
 
 pub use animate::{
-    AnimateOptions, AnimatedScene, AnimationEvent, AnimationReport, BoxError, FrameOutcome,
-    FrameReport, FrameTimes, animate,
+    AnimateOptions, AnimationEvent, AnimationReport, FrameOutcome, FrameReport, FrameTimes, animate,
 };
 pub use backend::Backend;
 pub use draw::{DrawOptions, Drawing, draw, draw_with_progress};
@@ -53,5 +52,7 @@ pub use metaball_core::{Camera, Hit, Image, Picture, Scene, Verdict, View, WorkK
 #[cfg(feature = "harness")]
 pub use method::Choosing;
 pub use method::Method;
-pub use particle_files::{Loaded, NumberedPath, Overrides, Sequence, load};
+pub use particle_files::{
+    AnimatedScene, BoxError, Loaded, NumberedPath, Overrides, Sequence, load,
+};
 pub use viewpoint::Viewpoint;

@@ -38,6 +38,7 @@
 //!
 #![doc = include_str!("../FORMATS.md")]
 
+mod animated_scene;
 mod elements;
 mod error;
 mod file;
@@ -55,6 +56,7 @@ mod sequence;
 mod spacing;
 mod text;
 
+pub use animated_scene::{AnimatedScene, BoxError};
 pub use error::{LoadError, Location};
 pub use formats::{Format, PackedFrames, pack_balls, pack_frames};
 pub use framing::framing;

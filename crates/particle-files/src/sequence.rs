@@ -5,6 +5,7 @@ use std::path::Path;
 
 use metaball_core::{Aabb, Camera, Kernel, Scene};
 
+use crate::animated_scene::{AnimatedScene, BoxError};
 use crate::error::LoadError;
 use crate::file;
 use crate::formats::PackedFrames;
@@ -139,6 +140,32 @@ impl Sequence {
             }
             Frames::Packed(frames) => Ok((range.start..range.end.min(frames.count())).collect()),
         }
+    }
+}
+
+impl AnimatedScene for Sequence {
+    fn name(&self) -> &str {
+        self.name()
+    }
+
+    fn description(&self) -> String {
+        format!("{} with {:?}", self.name(), self.overrides())
+    }
+
+    fn camera(&self) -> &Camera {
+        self.camera()
+    }
+
+    fn frames(&self) -> Range<u32> {
+        self.frames()
+    }
+
+    fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
+        Ok(self.present(range)?)
+    }
+
+    fn frame(&self, number: u32) -> Result<Scene, BoxError> {
+        Ok(self.frame(number)?)
     }
 }
 

@@ -19,11 +19,10 @@ use std::time::{Duration, Instant};
 
 use metaball_core::gpu::{self, Gpu, IsoRenderer, Shading, Targets};
 use metaball_core::{Image, Scene, View};
-use particle_files::NumberedPath;
+use particle_files::{AnimatedScene, BoxError, NumberedPath};
 use picture_files::{encode_described_png, write_atomically};
 
 use super::report::{FrameOutcome, FrameReport, FrameTimes, milliseconds};
-use super::{AnimatedScene, BoxError};
 use crate::draw::on_cpu;
 use crate::light::Lighting;
 use crate::{DrawOptions, Error};
@@ -205,12 +204,11 @@ fn chain(error: &dyn std::error::Error) -> String {
 mod tests {
     use std::collections::BTreeSet;
 
-    use bench_scenes::Overrides;
+    use bench_scenes::{Moving, Overrides};
     use fbvh::Options;
     use metaball_core::Picture;
 
     use super::*;
-    use crate::animate::tests::Tornado;
     use crate::{LightOptions, Method};
 
     /// A frame is kept only if none of these was another when it was drawn.
@@ -236,9 +234,9 @@ mod tests {
         ];
         let out = "f-%d.png".parse().expect("numbered");
         let described = |(spec, overrides, options): &(&str, Overrides, DrawOptions), number| {
-            let scene = Tornado::load(spec, overrides);
+            let scene = Moving::load(spec, overrides).expect("a scene that moves");
             let (width, height) = options.size;
-            let view = View::new(*scene.camera(), width, height).expect("a size");
+            let view = View::new(scene.camera, width, height).expect("a size");
             let job =
                 Job { options, scene: &scene, view: &view, gpu: None, lighting: None, out: &out };
             job.description(number)
