@@ -175,8 +175,15 @@ pub const INTERFACES: &[Interface] = &[
             const SOLID_ANSWERS: bool
             // Whether the excess stays below 0 where the field is nowhere more than this.
             fn stays_below(most: f32) -> bool
-            // On an interval, by one walk along the balls near.
-            fn bounds_on(ray: RelativeRay, direction: vec3<f32>, low: f32, high: f32) -> Bounds
+            // Where on an interval a ball adds most to the excess, of its depths there.
+            fn depth_of_most(v: Depths) -> f32
+            // Which of the signed distances from a ball's projection to the interval's ends bounds its
+            // share of the excess's slope from below, as `least_product` takes it.
+            fn way_of_least_slope(to_start: f32, to_end: f32) -> f32
+            // What the excess is at most and at least where the field is, but for this relative error,
+            // between the two.
+            fn upper_bound(least: f32, most: f32, error: f32) -> f32
+            fn lower_bound(least: f32, most: f32, error: f32) -> f32
         ",
     },
     Interface {

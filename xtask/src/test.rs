@@ -1,6 +1,6 @@
 //! `cargo xtask test`: everything that must hold before a change is taken.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use crate::adapter::{self, Adapter};
@@ -9,14 +9,6 @@ use crate::run::{cargo, quieten, say, succeeds, to_the_end};
 /// What users may take from the registry. Before the first release they pack only together: each
 /// is found by the next as a freshly packed archive.
 const PUBLISHED: [&str; 3] = ["metaball-shaders", "metaball-core", "fbvh"];
-
-/// The folder of a method in a crate of its own, outside of the workspace. It takes the workspace's
-/// versions of dependencies and its target folder, so that little is built twice.
-macro_rules! own_method {
-    () => {
-        concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/own-method/")
-    };
-}
 
 /// One thing to check: what it is called, cargo's arguments, and an environment variable.
 struct Step {
@@ -40,7 +32,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
 
     forget_packed();
     let lock = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.lock");
-    fs::copy(lock, concat!(own_method!(), "Cargo.lock"))
+    fs::copy(lock, Path::new(OWN_METHOD).with_file_name("Cargo.lock"))
         .map_err(|error| format!("Cargo.lock: cannot be copied to tests/own-method: {error}"))?;
     for step in steps(environment) {
         say(&format!("── {}", step.title));
@@ -64,7 +56,9 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
     }
 }
 
-const OWN_METHOD: &str = concat!(own_method!(), "Cargo.toml");
+/// A method in a crate of its own, outside of the workspace. It takes the workspace's versions of
+/// dependencies and its target folder, so that little is built twice.
+const OWN_METHOD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/own-method/Cargo.toml");
 const OWN_FORMATTING: [&str; 4] = ["fmt", "--manifest-path", OWN_METHOD, "--check"];
 const TARGET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target");
 

@@ -32,21 +32,17 @@ pub fn diff(before: &Path, after: &Path) -> anyhow::Result<()> {
     for remark in remarks(&before, &after) {
         console::note(&remark);
     }
-    let Changes { rows, unchanged, alone } = changes(&before.records, &after.records);
+    let Changes { rows, unchanged, in_both, alone } = changes(&before.records, &after.records);
     if !rows.is_empty() {
         let headings = ["scene", "method", "size", "change", "before", "after", "ratio"];
         console::line(&table(&headings, &rows));
     }
-    console::line(&format!("{unchanged} of {} without a change", unchanged_of(&after, &alone)));
+    let [unchanged, in_both] = [unchanged, in_both].map(grouped);
+    console::line(&format!("{unchanged} of {in_both} records in both without a change"));
     for line in alone {
         console::line(&line);
     }
     Ok(())
-}
-
-fn unchanged_of(after: &File, alone: &[String]) -> String {
-    let only_after = alone.iter().filter(|line| line.ends_with("after")).count();
-    format!("{} records in both", grouped(after.records.len() - only_after))
 }
 
 fn read(path: &Path) -> anyhow::Result<File> {
@@ -112,6 +108,8 @@ struct Changes {
     rows: Vec<Vec<String>>,
     /// Records in both files about which nothing changed.
     unchanged: usize,
+    /// Records in both files.
+    in_both: usize,
     /// Records in one file.
     alone: Vec<String>,
 }
@@ -122,13 +120,14 @@ fn changes(before: &[Record], after: &[Record]) -> Changes {
     for record in before {
         earlier.entry(key(record)).or_default().push_back(record);
     }
-    let mut changes = Changes { rows: Vec::new(), unchanged: 0, alone: Vec::new() };
+    let mut changes = Changes { rows: Vec::new(), unchanged: 0, in_both: 0, alone: Vec::new() };
     for record in after {
         match earlier.get_mut(&key(record)).and_then(VecDeque::pop_front) {
             None => changes.alone.push(format!("{}: only after", name(record))),
             Some(old) => {
                 let found = changes_of(old, record);
                 changes.unchanged += usize::from(found.is_empty());
+                changes.in_both += 1;
                 let size = format!("{} × {}", record.width, record.height);
                 changes.rows.extend(found.into_iter().map(|change| {
                     let first = [record.scene.clone(), method(record), size.clone()];
@@ -222,7 +221,7 @@ mod tests {
         let before = [measured_as("one", "fbvh", 10.0, 3), measured_as("one", "bvh", 20.0, 0)];
         assert_eq!(
             changes(&before, &before),
-            Changes { rows: vec![], unchanged: 2, alone: vec![] }
+            Changes { rows: vec![], unchanged: 2, in_both: 2, alone: vec![] }
         );
         let within = [measured_as("one", "fbvh", 10.04, 3), before[1].clone()];
         assert_eq!(changes(&before, &within).unchanged, 2);

@@ -11,7 +11,7 @@ use experiments::chart::{self, chart};
 use experiments::compare::{self, DEFAULT_SCENES, compare};
 use experiments::console;
 use experiments::diff::diff;
-use experiments::score::{self, score};
+use experiments::score::score;
 use experiments::stability::{self, stability};
 use glam::Vec3;
 use harness::comparison;
@@ -19,7 +19,7 @@ use harness::configuration::Configuration;
 use harness::imported::ImportedHits;
 use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, Method, methods};
-use metaball_core::{Camera, Scene};
+use metaball_core::Camera;
 
 use crate::camera::CameraArgs;
 use crate::names::{case_parser, configuration_parser, method_parser};
@@ -113,16 +113,15 @@ pub(crate) struct ScoreArgs {
 impl ScoreArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         let Self { scene, hits, name, camera, every_pixel, viewpoint, field } = self;
-        let (viewpoint, overrides) = (viewpoint.viewpoint(), field.overrides());
-        let seen_from =
-            |scene: &Scene, own: &Camera| Ok(viewpoint.camera(own, scene.bounds().center())?);
+        // What is wrong with the hits is said before a large scene is loaded.
+        let imported = hits.map(|file| ImportedHits::read(&name, &file)).transpose()?;
+        let mut bench = bench_scenes::load(&scene, &field.overrides())?;
+        bench.camera =
+            viewpoint.viewpoint().camera(&bench.camera, bench.scene.bounds().center())?;
         if camera {
-            let bench = bench_scenes::load(&scene, &overrides)?;
-            console::line(&camera_text(&seen_from(&bench.scene, &bench.camera)?));
+            console::line(&camera_text(&bench.camera));
         }
-        let Some(file) = hits else { return Ok(()) };
-        let camera = &seen_from;
-        score(&score::Options { scene, overrides, camera, every_pixel, name, file })
+        imported.map_or(Ok(()), |imported| score(&bench, &imported, every_pixel))
     }
 }
 

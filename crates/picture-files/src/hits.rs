@@ -151,5 +151,9 @@ mod tests {
         assert!(
             read_hits(Path::new("hits")).expect_err("refused").to_string().ends_with("no ending")
         );
+        for name in ["nowhere.exr", "nowhere.npy"] {
+            let error = read_hits(Path::new(name)).expect_err("refused").to_string();
+            assert_eq!(error, format!("cannot open {name}"));
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Hits as OpenEXR: f32 channels `Z`, `N.X`, `N.Y`, `N.Z`.
 
-use std::io::Cursor;
+use std::fs::File;
+use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes};
@@ -47,13 +48,14 @@ fn channel(name: &str, hits: &[Hit], value: impl Fn(&Hit) -> f32) -> AnyChannel<
 
 /// Reads what [`encode`] makes: channels of f32 or f16, with or without normals.
 pub(super) fn read_file(path: &Path) -> Result<HitImage, PictureFileError> {
+    let file = File::open(path).map_err(PictureFileError::io("open", path))?;
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
         .first_valid_layer()
         .all_attributes()
-        .from_file(path)
+        .from_buffered(BufReader::new(file))
         .map_err(PictureFileError::decode(path))?;
     let size = image.layer_data.size;
     let channels = &image.layer_data.channel_data.list;

@@ -9,8 +9,9 @@
 #import core::nearby_origin::UNIT
 #import core::ray::Ray
 #import core::scene::scene
+#import fbvh::bounds::bounds_on
 #import fbvh::budget::can_walk
-#import fbvh::excess::{bounds_on, stays_below, SIGN, SOLID_ANSWERS}
+#import fbvh::excess::{stays_below, SIGN, SOLID_ANSWERS}
 #import fbvh::leaf_outcome::{AT_FACE, BRACKETED, FOUND, MISSED, UNCERTAIN, UNMET, WAITING}
 #import fbvh::near_balls::{ball_of, begin_walk, gather, near_in, walk_length, words, WORDS}
 #import fbvh::polynomial_test::{polynomial_test, MOST_TESTS}
