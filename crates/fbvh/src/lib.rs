@@ -108,6 +108,6 @@ pub use field::Field;
 pub use node::{EMPTY, LEAF, Leaf, MAX_DEPTH, Node};
 pub use options::{Boxes, Classes, Cost, Fitting, Kind, Options, Structure};
 pub use stats::{Spread, Stats};
-pub use trace::{Counter, Reading, SecantSearch, TraceError, Tracer, Work};
+pub use trace::{Counter, Reading, SecantSearch, TraceError, TraceScratch, Tracer, Work};
 pub use tree::Tree;
 pub use validate::Flaw;

@@ -2,20 +2,23 @@
 
 mod batch;
 mod certified;
+mod clearance;
 mod counter;
 mod error;
 mod field_tree;
+mod host_tracer;
 mod published;
 mod secant;
 mod slabs;
 mod traversal;
 
-use metaball_core::{Hit, Ray, Verdict};
+use metaball_core::{Hit, HostTracer, Ray, RayQuery, SurfaceHit, Verdict};
 
 use self::certified::{Crossing, PacketScratch, Query, Scratch};
 pub use self::counter::{Counter, Work};
 pub use self::error::TraceError;
 use self::field_tree::FieldTree;
+pub use self::host_tracer::TraceScratch;
 use self::published::Published;
 pub use self::secant::{Reading, SecantSearch};
 use crate::{Field, Tree};
@@ -92,10 +95,10 @@ impl<'a, F: Field> Tracer<'a, F> {
     /// nothing of that is compiled.
     pub fn first_hit_counting(&self, ray: &Ray, counter: &mut impl Counter) -> Hit {
         match &self.search {
-            Search::Published(options) => self.published(options).hit(ray, counter),
+            Search::Published(options) => self.published(options).hit(ray, counter).hit,
             Search::Certified => {
                 let query = self.query(Crossing::Entry, false);
-                self.tree.first_crossing(&query, ray, &mut Scratch::new(), counter)
+                self.tree.first_crossing(&query, ray, &mut Scratch::new(), counter).hit
             }
         }
     }
@@ -104,13 +107,7 @@ impl<'a, F: Field> Tracer<'a, F> {
     /// the slice are neighbours in space: through a certified tree rays go in packets of eight.
     /// Verdicts are those of [`Tracer::first_hit`]; the last digits of t and of the normal may differ.
     pub fn first_hits(&self, rays: &[Ray]) -> Vec<Hit> {
-        match &self.search {
-            Search::Published(options) => {
-                let published = self.published(options);
-                batch::one_by_one(rays, Hit::MISS, || (), |ray, ()| published.hit(ray, &mut ()))
-            }
-            Search::Certified => self.packets(rays, false),
-        }
+        self.in_parallel(RayQuery::FirstHit, rays, |found| found.hit)
     }
 
     /// [`Tracer::first_hits`] of a picture's rays, which lie row by row, `width` to a row: through a
@@ -134,23 +131,17 @@ impl<'a, F: Field> Tracer<'a, F> {
     /// In a published tree the paper's bracket decides: it ends at a point inside.
     pub fn any_hit(&self, ray: &Ray) -> Verdict {
         match &self.search {
-            Search::Published(options) => self.published(options).any(ray),
+            Search::Published(options) => self.published(options).any(ray).hit.verdict,
             Search::Certified => {
                 let query = self.query(Crossing::Entry, true);
-                self.tree.first_crossing(&query, ray, &mut Scratch::new(), &mut ()).verdict
+                self.tree.first_crossing(&query, ray, &mut Scratch::new(), &mut ()).hit.verdict
             }
         }
     }
 
     /// [`Tracer::any_hit`] of many rays, in their order, on rayon's current pool.
     pub fn any_hits(&self, rays: &[Ray]) -> Vec<Verdict> {
-        match &self.search {
-            Search::Published(options) => {
-                let published = self.published(options);
-                batch::one_by_one(rays, Verdict::Miss, || (), |ray, ()| published.any(ray))
-            }
-            Search::Certified => self.packets(rays, true).iter().map(|hit| hit.verdict).collect(),
-        }
+        self.in_parallel(RayQuery::AnyHit, rays, |found| found.hit.verdict)
     }
 
     /// Where a ray that starts inside first leaves the solid: the smallest t at which the field falls
@@ -166,7 +157,7 @@ impl<'a, F: Field> Tracer<'a, F> {
     pub fn first_exit(&self, ray: &Ray) -> Result<Hit, TraceError> {
         self.check_exits()?;
         let query = self.query(Crossing::Exit, false);
-        Ok(self.tree.first_exit(&query, ray, &mut Scratch::new()))
+        Ok(self.tree.first_exit(&query, ray, &mut Scratch::new()).hit)
     }
 
     /// [`Tracer::first_exit`] of many rays, in their order, on rayon's current pool.
@@ -175,10 +166,7 @@ impl<'a, F: Field> Tracer<'a, F> {
     /// As [`Tracer::first_exit`].
     pub fn first_exits(&self, rays: &[Ray]) -> Result<Vec<Hit>, TraceError> {
         self.check_exits()?;
-        let query = self.query(Crossing::Exit, false);
-        Ok(batch::one_by_one(rays, Hit::MISS, Scratch::new, |ray, scratch| {
-            self.tree.first_exit(&query, ray, scratch)
-        }))
+        Ok(self.in_parallel(RayQuery::Exit, rays, |found| found.hit))
     }
 
     fn check_exits(&self) -> Result<(), TraceError> {
@@ -197,13 +185,19 @@ impl<'a, F: Field> Tracer<'a, F> {
         Query { kernel: field.kernel(), threshold: f64::from(field.threshold()), crossing, any }
     }
 
-    /// First entries, or any, of many rays through a certified tree.
-    fn packets(&self, rays: &[Ray], any: bool) -> Vec<Hit> {
-        let query = self.query(Crossing::Entry, any);
-        batch::in_runs(rays, Hit::MISS, PacketScratch::new, |rays, scratch, answers| {
-            let packets = rays.chunks(certified::WIDTH);
-            for (packet, answers) in packets.zip(answers.chunks_mut(certified::WIDTH)) {
-                self.tree.first_crossings(&query, packet, scratch, answers);
+    /// Answers of many rays, in their order.
+    fn in_parallel<T: Copy + Send + Sync>(
+        &self,
+        query: RayQuery,
+        rays: &[Ray],
+        read: impl Fn(&SurfaceHit) -> T + Sync,
+    ) -> Vec<T> {
+        let scratch = || (self.scratch(), Vec::new());
+        batch::in_runs(rays, read(&SurfaceHit::MISS), scratch, |rays, (scratch, found), answers| {
+            found.resize(rays.len(), SurfaceHit::MISS);
+            self.answer(query, rays, scratch, found);
+            for (answer, found) in answers.iter_mut().zip(found) {
+                *answer = read(found);
             }
         })
     }

@@ -28,7 +28,7 @@ impl Color {
             let encoded = if light <= 0.003_130_8 {
                 light * 12.92
             } else {
-                1.055 * light.powf(1.0 / 2.4) - 0.055
+                1.055 * libm::powf(light, 1.0 / 2.4) - 0.055
             };
             (0.5 + 255.0 * encoded) as u8
         });
@@ -39,7 +39,11 @@ impl Color {
     pub fn to_linear(self) -> Vec3 {
         Vec3::from(self.to_srgb().map(|channel| {
             let encoded = f32::from(channel) / 255.0;
-            if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+            if encoded <= 0.04045 {
+                encoded / 12.92
+            } else {
+                libm::powf((encoded + 0.055) / 1.055, 2.4)
+            }
         }))
     }
 }

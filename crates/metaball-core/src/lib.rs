@@ -39,6 +39,7 @@
 //! # Contents
 //! - [`Scene`] of [`Metaball`]s, a [`Kernel`] and a threshold; [`Aabb`], [`Color`].
 //! - [`Camera`] and [`View`], which make primary [`Ray`]s; [`Hit`], what is found along one.
+//! - [`HostTracer`]: what follows rays from anywhere on the CPU, for light.
 //! - [`mod@reference`]: exact first hits on the CPU, for comparison.
 //! - [`Picture`], [`Image`]: what pictures show, and their pixels; [`Work`]: what a pixel cost.
 //! - With feature `gpu`, module `gpu`: adapter, frames with timed passes, buffers of hits, shading, and the
@@ -50,23 +51,27 @@ mod camera;
 mod color;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod host_tracer;
 mod kernel;
 mod picture;
 mod ray;
 pub mod reference;
 mod scene;
+mod surface_color;
 mod work;
 
 pub use aabb::Aabb;
 pub use ball::{Metaball, Support};
 pub use camera::{Camera, CameraError, View, ViewError};
 pub use color::Color;
+pub use host_tracer::{HostTracer, RayQuery, SurfaceHit};
 pub use kernel::{Exponent, ExponentError, Kernel};
 pub use picture::{Image, Picture, Shaded, ValueRange};
 pub use ray::{Hit, NO_LIMIT, PackedHit, Ray, Verdict};
 pub use scene::{
     Generality, KernelForm, RADIUS_LIMITS, Scene, SceneError, check_ball, check_field,
 };
+pub use surface_color::SurfaceColors;
 pub use work::{Work, WorkKind};
 
 /// The version of glam that this crate is built on.

@@ -47,7 +47,10 @@ fn blur(
     deviation: f32,
 ) -> Vec<f32> {
     let reach = (3.0 * deviation).ceil() as isize;
-    let weight = |offset: isize| (-0.5 * (offset as f32 / deviation).powi(2)).exp();
+    let weight = |offset: isize| {
+        let away = offset as f32 / deviation;
+        libm::expf(-0.5 * away * away)
+    };
     let total: f32 = (-reach..=reach).map(weight).sum();
     let mut blurred = vec![0.0; numbers.len()];
     for line in 0..lines {

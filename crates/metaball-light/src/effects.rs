@@ -1,7 +1,7 @@
 //! Effects of light as plain values: surface, lamps, occlusion, floor and environment.
 
 use glam::Vec3;
-use metaball_core::Camera;
+use metaball_core::{Camera, RayQuery};
 
 use crate::Panorama;
 
@@ -92,13 +92,36 @@ pub enum Environment {
 impl Effects {
     /// Whether the view's first hits are enough: no secondary ray is traced through the scene.
     pub fn end_at_first_surface(&self) -> bool {
-        let is_opaque = matches!(self.surface, Surface::Opaque { .. });
-        is_opaque && self.bounces == 0 && !self.need_shadow_rays()
+        !self.is_fluid() && self.bounces == 0 && !self.need_shadow_rays()
     }
 
     /// Whether surfaces send shadow or occlusion rays.
     pub(crate) fn need_shadow_rays(&self) -> bool {
-        self.occlusion.is_some() || self.shadows && !self.lamps.is_empty()
+        self.occlusion_rays() > 0 || self.cast_shadows()
+    }
+
+    /// Whether lamps cast shadows. A fluid casts none, nor is anything occluded by it.
+    pub(crate) fn cast_shadows(&self) -> bool {
+        self.shadows && !self.lamps.is_empty() && !self.is_fluid()
+    }
+
+    /// Occlusion rays of a surface point.
+    pub(crate) fn occlusion_rays(&self) -> u32 {
+        let rays = self.occlusion.map_or(0, |occlusion| occlusion.rays);
+        if self.is_fluid() { 0 } else { rays }
+    }
+
+    fn is_fluid(&self) -> bool {
+        matches!(self.surface, Surface::Fluid { .. })
+    }
+
+    /// The queries that rays of these effects make.
+    pub(crate) fn queries(&self) -> Vec<RayQuery> {
+        if self.is_fluid() {
+            return vec![RayQuery::FirstHit, RayQuery::Exit];
+        }
+        let shadow = self.need_shadow_rays().then_some(RayQuery::AnyHit);
+        [RayQuery::FirstHit].into_iter().chain(shadow).collect()
     }
 
     /// Phong's model under the generated sky, lit by [`Lamp::studio`] without shadows.

@@ -18,7 +18,7 @@ impl Film {
     /// The picture with sRGB's transfer function (IEC 61966-2-1). `exposure` is in stops: each doubles the
     /// light. What is brighter than white is white.
     pub fn develop(&self, exposure: f32) -> Image {
-        let gain = exposure.exp2();
+        let gain = libm::exp2f(exposure);
         let pixel = |light: &Vec3| Color::from_linear(gain * *light);
         let pixels: Vec<Color> = self.light.iter().map(pixel).collect();
         Image::new(self.width, self.height, &pixels)

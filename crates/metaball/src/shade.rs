@@ -3,14 +3,13 @@
 
 use glam::Vec3;
 use metaball_core::{
-    Camera, Color, Hit, Image, Picture, Ray, Scene, Shaded, ValueRange, Verdict, View,
+    Camera, Color, Hit, Image, Picture, Ray, Scene, Shaded, SurfaceColors, ValueRange, Verdict,
+    View,
 };
 use rayon::prelude::*;
 
 use crate::Error;
 
-/// The material of scenes without colours, in linear light.
-const WHITE: Vec3 = Vec3::new(0.80, 0.78, 0.74);
 /// A pixel that is undecided.
 const ALARM: Vec3 = Vec3::new(1.0, 0.0, 0.6);
 
@@ -59,11 +58,12 @@ pub(crate) fn draw(
     let camera = view.camera();
     let range = (picture == CpuPicture::Depth).then(|| ValueRange::of_distances(hits));
     let scale = range.unwrap_or_default();
-    let colors = Colors::new(scene);
+    let colors = SurfaceColors::new(scene);
+    let color = |ray: &Ray, hit: &Hit| colors.at(ray.origin + hit.t * ray.direction, &[]);
     let surface = |ray: &Ray, hit: &Hit| match (picture, hit.verdict) {
-        (CpuPicture::Color, _) => colors.at(ray, hit),
-        (_, Verdict::Inside) => 0.25 * colors.at(ray, hit),
-        _ => phong(camera, colors.at(ray, hit), hit.normal, -ray.direction),
+        (CpuPicture::Color, _) => color(ray, hit),
+        (_, Verdict::Inside) => 0.25 * color(ray, hit),
+        _ => phong(camera, color(ray, hit), hit.normal, -ray.direction),
     };
     let light = |row, ray: &Ray, hit: &Hit| match hit.verdict {
         Verdict::Miss => background(row, view.height()),
@@ -117,52 +117,6 @@ fn grey(hit: &Hit, scale: ValueRange) -> Vec3 {
     }
     let share = (hit.t - scale.low) / (scale.high - scale.low).max(1e-30);
     Vec3::splat(1.0 - 0.85 * share.clamp(0.0, 1.0))
-}
-
-/// A coloured scene's balls, sorted to find those around a point.
-struct Colors<'a> {
-    scene: &'a Scene,
-    /// Balls by the x of their centres; empty in a scene without colours.
-    along_x: Vec<usize>,
-    /// The largest support radius.
-    reach: f32,
-}
-
-impl<'a> Colors<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        let supports = scene.supports();
-        let balls = if scene.colors().is_some() { scene.len() } else { 0 };
-        let mut along_x: Vec<_> = (0..balls).collect();
-        along_x.sort_by(|&a, &b| supports[a].center.x.total_cmp(&supports[b].center.x));
-        let reach = supports.iter().map(|ball| ball.radius).fold(0.0, f32::max);
-        Self { scene, along_x, reach }
-    }
-
-    /// The surface's own colour in linear light: each ball's counts by its share of the field.
-    fn at(&self, ray: &Ray, hit: &Hit) -> Vec3 {
-        let Some(colors) = self.scene.colors() else { return WHITE };
-        let supports = self.scene.supports();
-        let point = ray.origin + hit.t * ray.direction;
-        let x = |&ball: &usize| supports[ball].center.x;
-        let first = self.along_x.partition_point(|ball| x(ball) < point.x - self.reach);
-        let end = self.along_x.partition_point(|ball| x(ball) <= point.x + self.reach);
-
-        let mut blended = Vec3::ZERO;
-        let mut total = 0.0;
-        for &ball in &self.along_x[first..end] {
-            let support = supports[ball];
-            let depth =
-                1.0 - point.distance_squared(support.center) / (support.radius * support.radius);
-            if depth > 0.0 {
-                let strength = self.scene.strengths().map_or(1.0, |strengths| strengths[ball]);
-                let weight = strength * self.scene.kernel().value_at_depth(depth);
-                blended += weight * colors[ball].to_linear();
-                total += weight;
-            }
-        }
-        // Methods store what they blend in eight bits before it is lit.
-        Color::from_linear(blended / f32::max(total, 1e-30)).to_linear()
-    }
 }
 
 /// A pixel of channels that are not light, clamped to \[0, 1\] and rounded as WGSL's `pack4x8unorm`.

@@ -269,7 +269,7 @@ fn write(pixel: u32, ray: Ray) {
 }
 
 // What the start of a secondary ray must keep from the hit, along the normal: derived in
-// crates/fbvh/src/gpu/mod.rs.
+// crates/fbvh/src/trace/clearance.rs.
 fn clearance(ray: Ray, error: f32, steepness: f32, smallest: f32) -> f32 {
     let flattest = max(steepness, error / (smallest * 0x1p-10f));
     return 4.0 * error / max(flattest, 1e-37) + rounding_at(ray, best_t);

@@ -4,6 +4,7 @@ mod answers;
 mod canaries;
 mod effects;
 mod free_rays;
+mod host;
 mod judge;
 mod pictures;
 
@@ -15,6 +16,7 @@ const CERTIFIED: &str = "fbvh-certified";
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials = effects::trials();
     trials.extend(free_rays::trials());
+    trials.extend(host::trials());
     trials.extend(pictures::trials());
     trials.extend(canaries::trials());
     trials

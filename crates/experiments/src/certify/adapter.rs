@@ -3,9 +3,9 @@
 use fbvh::Options;
 use fbvh::gpu::Renderer;
 use metaball_core::gpu::{
-    FreeRay, Gpu, IsoRenderer, RayBatch, RayQuery, RenderError, Targets, render, render_with,
+    FreeRay, Gpu, IsoRenderer, RayBatch, RenderError, Targets, render, render_with,
 };
-use metaball_core::{Camera, Hit, Kernel, Ray, Scene, View};
+use metaball_core::{Camera, Hit, Kernel, Ray, RayQuery, Scene, View};
 
 /// Rays of a batch: this many squared.
 pub const SIDE: u32 = 128;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use metaball_core::gpu::RayQuery;
+use metaball_core::RayQuery;
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Hit, NO_LIMIT, Ray, Scene, Verdict};
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,8 @@ use anyhow::Context;
 use bench_scenes::{Case, Random, arbitrary, cases};
 use fbvh::{Options, Tree};
 use glam::Vec3;
-use metaball_core::gpu::{FreeRay, RayQuery};
+use metaball_core::RayQuery;
+use metaball_core::gpu::FreeRay;
 use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Camera, Hit, Ray, Scene, Verdict, View};
 

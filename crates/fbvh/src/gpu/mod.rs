@@ -20,24 +20,8 @@
 //! # Secondary rays
 //! Free rays ([`RayTracer`]) run through the same shader; `shaders/wgsl/ray/free.wgsl` hands them out,
 //! and `shaders/wgsl/fbvh/excess/exit.wgsl` replaces `shaders/wgsl/fbvh/excess/entry.wgsl` where the exit
-//! from the solid is sought. A secondary ray must start on the side of the surface that it leaves to, or it would
-//! find the surface it comes from; started too far off it would step over thin gaps. How far is enough
-//! follows from how far the hit can be from the surface, u = 2⁻²³:
-//!
-//! - *Uncertainty of the field.* The search knows F at the hit to ± δ, δ = Σ qᵢk′(vᵢ)·δvᵢ plus the
-//!   tolerance of the search (0 for the certified tree, tolerance·T for the published ones). δvᵢ is
-//!   u(26 + (24·D + 2⁻⁸·t)/Rᵢ) in a leaf of diagonal D, which no margin of the search itself exceeds.
-//!   So the surface is within δ/|∇F| of the hit. The start's own field is bounded with the same margins,
-//!   to ± δ again, and the gradient may halve in between: 4δ/|∇F| along the normal put the start where
-//!   the search is certain of its side.
-//! - *Where the field is flat* a first-order step would be long, but there the field falls by
-//!   curvature, q·k″/R² per unit squared: δ of 2⁻¹⁶ is made up for within 2⁻⁸R, and no step is longer.
-//! - *Rounding of the point.* o + t·d errs by u(|o| + 2t + |o + t·d|) at the most, and the moved start is
-//!   rounded again: twice that, and twice more since d is unit to rounding only.
-//!
-//! The sum is the hit's clearance ([`PackedHit::clearance`](metaball_core::PackedHit::clearance)). All
-//! its terms scale with the scene, and with the coordinates' size only as f32 resolves them; nothing is
-//! tuned. A start whose side is still uncertain is answered *undecided*.
+//! from the solid is sought. How far from a hit they start is derived in `crates/fbvh/src/trace/clearance.rs`; an
+//! answer carries it ([`PackedHit::clearance`](metaball_core::PackedHit::clearance)).
 //!
 //! # Practice
 //! Pipelines are compiled at the first build and again only when a scene needs other ones: another
@@ -49,11 +33,11 @@ mod tree_buffers;
 
 use std::time::Instant;
 
-use metaball_core::Scene;
 use metaball_core::gpu::{
-    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RayBatch, RayQuery, RayTracer, RenderError,
+    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RayBatch, RayTracer, RenderError,
     SceneBuffers, Specialization,
 };
+use metaball_core::{RayQuery, Scene};
 
 use self::pipelines::{Pipelines, Specialized, TracePipelines};
 use self::suspended::SuspendedPool;

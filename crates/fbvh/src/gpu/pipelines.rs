@@ -1,8 +1,9 @@
 //! The pipelines, and what they are specialised for.
 
+use metaball_core::RayQuery;
 use metaball_core::gpu::{
-    Binding, Gpu, RayQuery, RenderError, Specialization, bind_group_layout, compute_pipeline,
-    frame_layout, free_ray_layout, scene_layout,
+    Binding, Gpu, RenderError, Specialization, bind_group_layout, compute_pipeline, frame_layout,
+    free_ray_layout, scene_layout,
 };
 use metaball_core::{Kernel, KernelForm};
 

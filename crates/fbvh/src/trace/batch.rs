@@ -1,6 +1,6 @@
 //! Many rays in parallel, on rayon's current pool.
 
-use metaball_core::{Hit, Ray};
+use metaball_core::{Hit, Ray, SurfaceHit};
 use rayon::prelude::*;
 
 /// Answers runs of rays in the order of the rays. `answer` fills one slice of answers for one slice of
@@ -19,27 +19,13 @@ pub(super) fn in_runs<T: Copy + Send + Sync, S>(
     answers
 }
 
-/// Answers rays one by one.
-pub(super) fn one_by_one<T: Copy + Send + Sync, S>(
-    rays: &[Ray],
-    blank: T,
-    scratch: impl Fn() -> S + Send + Sync,
-    answer: impl Fn(&Ray, &mut S) -> T + Sync,
-) -> Vec<T> {
-    in_runs(rays, blank, scratch, |rays, scratch, answers| {
-        for (ray, slot) in rays.iter().zip(answers) {
-            *slot = answer(ray, scratch);
-        }
-    })
-}
-
 /// Answers the rays of a picture, which lie row by row, `width` to a row, in blocks of 4 × 2 pixels:
 /// closer neighbours than eight pixels of a row.
 pub(super) fn in_blocks<S>(
     rays: &[Ray],
     width: usize,
     scratch: impl Fn() -> S + Send + Sync,
-    answer: impl Fn(&[Ray], &mut S, &mut [Hit]) + Sync,
+    answer: impl Fn(&[Ray], &mut S, &mut [SurfaceHit]) + Sync,
 ) -> Vec<Hit> {
     const BLOCK: (usize, usize) = (4, 2);
     /// Four rows of blocks, since neighbours share a leaf that has been loaded.
@@ -61,10 +47,10 @@ pub(super) fn in_blocks<S>(
             }
             block.clear();
             block.extend(pixels.iter().map(|&pixel| rays[pixel]));
-            let mut answers = [Hit::MISS; BLOCK.0 * BLOCK.1];
+            let mut answers = [SurfaceHit::MISS; BLOCK.0 * BLOCK.1];
             answer(&block, scratch, &mut answers[..block.len()]);
             for (&pixel, answer) in pixels.iter().zip(answers) {
-                hits[pixel] = answer;
+                hits[pixel] = answer.hit;
             }
         }
     });

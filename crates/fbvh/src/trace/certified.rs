@@ -44,7 +44,6 @@ mod query;
 mod ranges;
 mod ray;
 
-pub(super) use self::lanes::WIDTH;
-pub(super) use self::packet::PacketScratch;
+pub(super) use self::packet::{PacketScratch, packets};
 pub(super) use self::query::{Crossing, Query};
-pub(super) use self::ray::Scratch;
+pub(super) use self::ray::{Scratch, UNDECIDED};

@@ -1,7 +1,7 @@
 //! A tree together with the field that it was built from.
 
 use glam::Vec3;
-use metaball_core::{Hit, Ray, Verdict};
+use metaball_core::{Hit, Ray, SurfaceHit, Verdict};
 
 use super::counter::Counter;
 use crate::{Field, Tree};
@@ -45,7 +45,8 @@ impl<F: Field> FieldTree<'_, F> {
     }
 
     /// A verdict about a point of the ray in a leaf, with the normal there.
-    pub(super) fn hit_at(&self, verdict: Verdict, leaf: usize, ray: &Ray, t: f32) -> Hit {
-        Hit { verdict, fallback: false, t, normal: self.normal(leaf, ray, t) }
+    pub(super) fn hit_at(&self, verdict: Verdict, leaf: usize, ray: &Ray, t: f32) -> SurfaceHit {
+        let hit = Hit { verdict, fallback: false, t, normal: self.normal(leaf, ray, t) };
+        SurfaceHit { hit, place: leaf as u32 }
     }
 }

@@ -1,6 +1,6 @@
 //! Rays through the published trees: sections 4 and 5.2, in f32.
 
-use metaball_core::{Hit, Ray, Verdict};
+use metaball_core::{Hit, Ray, SurfaceHit, Verdict};
 
 use super::counter::Counter;
 use super::field_tree::FieldTree;
@@ -15,7 +15,7 @@ pub(super) struct Published<'a, F> {
 
 impl<F: Field> Published<'_, F> {
     /// Where the ray first enters the solid.
-    pub(super) fn hit(&self, ray: &Ray, counter: &mut impl Counter) -> Hit {
+    pub(super) fn hit(&self, ray: &Ray, counter: &mut impl Counter) -> SurfaceHit {
         if let Some(leaf) = self.start_inside(ray, counter) {
             return self.tree.hit_at(Verdict::Inside, leaf, ray, 0.0);
         }
@@ -32,18 +32,19 @@ impl<F: Field> Published<'_, F> {
                 Some((leaf, t))
             })
         };
-        found.map_or(Hit::MISS, |(leaf, t)| self.tree.hit_at(Verdict::Hit, leaf, ray, t))
+        found.map_or(SurfaceHit::MISS, |(leaf, t)| self.tree.hit_at(Verdict::Hit, leaf, ray, t))
     }
 
     /// Whether there is solid on the ray: the paper's bracket ends at a point inside.
-    pub(super) fn any(&self, ray: &Ray) -> Verdict {
+    pub(super) fn any(&self, ray: &Ray) -> SurfaceHit {
+        let found = |verdict| SurfaceHit { hit: Hit { verdict, ..Hit::MISS }, ..SurfaceHit::MISS };
         if self.start_inside(ray, &mut ()).is_some() {
-            return Verdict::Inside;
+            return found(Verdict::Inside);
         }
-        let found = self.tree.tree.first_in_order(ray, &mut (), |leaf, interval, counter| {
+        let bracket = self.tree.tree.first_in_order(ray, &mut (), |leaf, interval, counter| {
             self.leaf(leaf, ray).bracket(interval, counter)
         });
-        found.map_or(Verdict::Miss, |_| Verdict::Hit)
+        bracket.map_or(SurfaceHit::MISS, |_| found(Verdict::Hit))
     }
 
     /// A leaf by whose list the ray starts inside the solid.

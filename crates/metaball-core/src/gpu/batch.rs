@@ -2,7 +2,8 @@
 
 use super::layout::bind_group;
 use super::ray_list::RayList;
-use super::{Frame, FreeRay, Gpu, RayQuery, RenderError, Specialization, Targets, free_ray_layout};
+use super::{Frame, FreeRay, Gpu, RenderError, Specialization, Targets, free_ray_layout};
+use crate::RayQuery;
 use crate::{Color, Hit, PackedHit};
 
 /// One free ray for each pixel of some targets, and its answer. The caller writes the rays, from the

@@ -1,29 +1,11 @@
-//! Rays with a start of their own, and what each queries.
+//! Rays with a start and a query of their own.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::Ray;
-
-/// What a ray queries.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[repr(u32)]
-pub enum RayQuery {
-    /// The smallest t at which the field rises to T; a start at T or above is
-    /// [`Inside`](crate::Verdict::Inside).
-    FirstHit = 1,
-    /// Whether the field is T or more anywhere on the ray, for shadow and occlusion rays. Any such t
-    /// will do, and no normal is found.
-    AnyHit = 2,
-    /// For a ray that starts in the solid, the smallest t at which the field falls below T. A start
-    /// below T is [`Inside`](crate::Verdict::Inside) at t = 0: it is outside the solid already.
-    Exit = 3,
-}
+use crate::{Ray, RayQuery};
 
 impl RayQuery {
-    /// Every query, in the order of their numbers.
-    pub const ALL: [Self; 3] = [Self::FirstHit, Self::AnyHit, Self::Exit];
-
     /// Key of the override constant, its `@id`, that holds the query of a pass composed with
     /// `shaders/wgsl/batch/list_rays.wgsl` or `shaders/wgsl/ray/free.wgsl`: `query as u32`.
     pub const CONSTANT: &str = "2";

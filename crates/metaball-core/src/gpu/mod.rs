@@ -176,7 +176,7 @@ pub use batch::RayBatch;
 pub use device::Gpu;
 pub use error::RenderError;
 pub use frame::{Frame, FrameReport, RenderAttachments};
-pub use free_ray::{FreeRay, RayQuery};
+pub use free_ray::FreeRay;
 pub use layout::{Binding, Resource, bind_group, bind_group_layout};
 pub use pipeline::{Shader, Specialization, compute_pipeline, pipeline_layout, workgroup_grid};
 pub use raster::{DepthTest, RasterDescriptor, TRIANGLE_STRIP};

@@ -6,7 +6,8 @@ use bytemuck::{Pod, Zeroable};
 
 use super::layout::{Binding, bind_group, bind_group_layout};
 use super::pipeline::{Specialization, compute_pipeline};
-use super::{Frame, Gpu, RayQuery, RenderError};
+use super::{Frame, Gpu, RenderError};
+use crate::RayQuery;
 
 /// What a list begins with: WGSL's `Listed` of `shaders/wgsl/batch/list.wgsl`. The first twelve bytes are
 /// the arguments of an indirect dispatch along it.

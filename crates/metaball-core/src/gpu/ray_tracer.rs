@@ -1,6 +1,7 @@
 //! Methods that answer queries of free rays.
 
-use super::{Frame, RayBatch, RayQuery, RenderError};
+use super::{Frame, RayBatch, RenderError};
+use crate::RayQuery;
 
 /// A method that traces any ray, beyond primary ones. Light effects are made of such rays.
 pub trait RayTracer {

@@ -8,7 +8,7 @@ use super::targets::ViewUniform;
 use super::{
     DepthTest, Gpu, RasterDescriptor, RenderError, Shader, Specialization, TRIANGLE_STRIP, Targets,
 };
-use crate::{Image, Scene, View};
+use crate::{Image, Scene, SurfaceColors, View};
 
 const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -156,11 +156,10 @@ impl SpherePicture {
 
 /// Each ball's sphere of its own threshold, with the ball's colour or a common one.
 fn core_spheres(scene: &Scene) -> Vec<CoreSphere> {
-    // As `WHITE` of shaders/wgsl/shade/light.wgsl.
-    const WHITE: Vec3 = Vec3::new(0.80, 0.78, 0.74);
     let cores = scene.balls().enumerate().filter_map(|(index, ball)| {
         let radius = scene.kernel().core_radius(&ball, scene.threshold())? as f32;
-        let color = scene.colors().map_or(WHITE, |colors| colors[index].to_linear());
+        let color =
+            scene.colors().map_or(SurfaceColors::UNCOLORED, |colors| colors[index].to_linear());
         (radius > 0.0).then_some(CoreSphere { center: ball.center, radius, color, half_depth: 0.0 })
     });
     let mut spheres: Vec<_> = cores.collect();

@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
 use metaball_core::{Hit, Image, Scene, View};
-use metaball_light::{Effects, Film, PathTracer};
+use metaball_light::gpu::PathTracer;
+use metaball_light::{Effects, Film};
 
 /// Standard deviation of the depth cue's Gaussian, in parts of the picture's height.
 const DEPTH_CUE_WIDTH: f32 = 0.02;

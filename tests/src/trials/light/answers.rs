@@ -1,7 +1,8 @@
 //! Free rays and their answers.
 
 use libtest_mimic::Failed;
-use metaball_core::gpu::{FreeRay, Gpu, RayBatch, RayQuery, RenderError, Targets, render_with};
+use metaball_core::RayQuery;
+use metaball_core::gpu::{FreeRay, Gpu, RayBatch, RenderError, Targets, render_with};
 use metaball_core::{Hit, Ray, Scene, View};
 
 use super::CERTIFIED;

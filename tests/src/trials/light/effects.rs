@@ -5,7 +5,8 @@ use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 use metaball_core::{Camera, Metaball, NO_LIMIT, Scene, Verdict, View};
-use metaball_light::{Effects, Floor, Lamp, Occlusion, PathTracer, Surface};
+use metaball_light::gpu::PathTracer;
+use metaball_light::{Effects, Floor, Lamp, Occlusion, Surface};
 
 use super::CERTIFIED;
 use super::answers::{Answered, answers};
@@ -14,7 +15,8 @@ use crate::trials::{SIZE, load, on_gpu, renderer, view_of};
 
 /// Scenes whose effects are followed: merging and tangled ones, strengths, all at one scale; far from the
 /// origin; and radii of a thousandth beside one.
-const SCENES: [&str; 4] = ["random-200", "strengths-100", "far-from-origin", "radius-ratio-1000"];
+pub(super) const SCENES: [&str; 4] =
+    ["random-200", "strengths-100", "far-from-origin", "radius-ratio-1000"];
 
 /// An effect, by its last rays.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +27,7 @@ pub(super) enum Effect {
     Refraction { level: u32 },
 }
 
-const EFFECTS: [(&str, Effect); 6] = [
+pub(super) const EFFECTS: [(&str, Effect); 6] = [
     ("shadows", Effect::Shadow),
     ("occlusion", Effect::Occlusion),
     ("first_reflection", Effect::Reflection { level: 1 }),

@@ -3,7 +3,8 @@
 use bench_scenes::{BenchScene, cases};
 use glam::{Vec3, Vec3Swizzles};
 use libtest_mimic::{Failed, Trial};
-use metaball_core::gpu::{FreeRay, Gpu, RayQuery};
+use metaball_core::RayQuery;
+use metaball_core::gpu::{FreeRay, Gpu};
 use metaball_core::reference::Oracle;
 use metaball_core::{Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict};
 

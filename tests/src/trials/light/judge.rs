@@ -2,7 +2,7 @@
 //! shows as a ray that starts inside.
 
 use libtest_mimic::Failed;
-use metaball_core::gpu::RayQuery;
+use metaball_core::RayQuery;
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, Ray, Scene, Verdict};
 

@@ -4,7 +4,8 @@
 use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
-use metaball_light::{Effects, Environment, PathTracer, Surface};
+use metaball_light::gpu::PathTracer;
+use metaball_light::{Effects, Environment, Surface};
 
 use super::CERTIFIED;
 use super::effects::floor_below;

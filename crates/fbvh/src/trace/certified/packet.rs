@@ -12,14 +12,14 @@ mod leaf;
 mod rays;
 mod root;
 
-use metaball_core::{Aabb, Hit, Ray, Verdict};
+use metaball_core::{Aabb, Ray, SurfaceHit};
 use pulp::{Simd, WithSimd};
 
 use self::balls::Balls;
 use self::rays::{ExactPacket, Packet, is_negative};
-use super::lanes::lanes_of;
+use super::lanes::{WIDTH, lanes_of};
 use super::query::{Answer, Query};
-use super::ray::{RayState, Scratch};
+use super::ray::{RayState, Scratch, UNDECIDED};
 use crate::Field;
 use crate::node::{EMPTY, MAX_DEPTH};
 use crate::trace::field_tree::FieldTree;
@@ -41,6 +41,17 @@ impl PacketScratch {
         leaves.resize_with(LOADED, Balls::default);
         Self { single: Scratch::new(), leaves }
     }
+
+    /// For rays that go alone.
+    pub(in crate::trace) fn single(&mut self) -> &mut Scratch {
+        &mut self.single
+    }
+}
+
+/// Rays in packets: neighbours that go the same way along each axis.
+pub(in crate::trace) fn packets(rays: &[Ray]) -> impl Iterator<Item = &[Ray]> {
+    let same_way = |a: &Ray, b: &Ray| is_negative(a) == is_negative(b);
+    rays.chunk_by(same_way).flat_map(|rays| rays.chunks(WIDTH))
 }
 
 /// Siblings still to be visited, with the lanes whose rays cross them. [`MAX_DEPTH`] says why it cannot
@@ -78,7 +89,7 @@ struct Traversal<'a, F> {
     tree: &'a FieldTree<'a, F>,
     query: &'a Query,
     rays: &'a [Ray],
-    answers: &'a mut [Hit],
+    answers: &'a mut [SurfaceHit],
     scratch: &'a mut PacketScratch,
     /// Lanes whose rays have no answer yet.
     open: u32,
@@ -93,7 +104,7 @@ impl<F: Field> FieldTree<'_, F> {
         query: &Query,
         rays: &[Ray],
         scratch: &mut PacketScratch,
-        answers: &mut [Hit],
+        answers: &mut [SurfaceHit],
     ) {
         let first = rays.first().filter(|_| leaf::is_searched_in_packets(query)).map(is_negative);
         match first {
@@ -156,10 +167,10 @@ impl<F: Field> WithSimd for Traversal<'_, F> {
             };
             next = next.filter(|next| next.1 != 0).or_else(|| siblings.pop(self.open));
         }
-        let undecided = Hit { verdict: Verdict::Undecided, ..Hit::MISS };
         for (lane, answer) in self.answers.iter_mut().enumerate() {
             if self.open & 1 << lane != 0 {
-                *answer = if self.uncertain & 1 << lane != 0 { undecided } else { Hit::MISS };
+                let is_uncertain = self.uncertain & 1 << lane != 0;
+                *answer = if is_uncertain { UNDECIDED } else { SurfaceHit::MISS };
             }
         }
     }
@@ -168,7 +179,7 @@ impl<F: Field> WithSimd for Traversal<'_, F> {
 impl<F: Field> Traversal<'_, F> {
     /// Takes answers for some lanes; `None` where the ray continues.
     #[inline(always)]
-    fn each(&mut self, lanes: u32, mut answer: impl FnMut(&mut Self, usize) -> Option<Hit>) {
+    fn each(&mut self, lanes: u32, mut answer: impl FnMut(&mut Self, usize) -> Option<SurfaceHit>) {
         for lane in lanes_of(lanes) {
             if let Some(hit) = answer(self, lane) {
                 self.answers[lane] = hit;
@@ -201,7 +212,7 @@ impl<F: Field> Traversal<'_, F> {
     }
 
     /// Searches a leaf on one ray.
-    fn visit_alone(&mut self, leaf: usize, lane: usize) -> Option<Hit> {
+    fn visit_alone(&mut self, leaf: usize, lane: usize) -> Option<SurfaceHit> {
         let mut state = RayState::new(&self.rays[lane]);
         let single = &mut self.scratch.single;
         let hit = self.tree.search_leaf(self.query, leaf, &mut state, single, &mut ());
@@ -211,7 +222,7 @@ impl<F: Field> Traversal<'_, F> {
 
     /// Takes one ray through a subtree.
     #[inline(never)]
-    fn continue_alone(&mut self, reference: u32, lane: usize) -> Option<Hit> {
+    fn continue_alone(&mut self, reference: u32, lane: usize) -> Option<SurfaceHit> {
         let mut state = RayState::new(&self.rays[lane]);
         let single = &mut self.scratch.single;
         let hit =

@@ -1,7 +1,7 @@
 //! One ray through the certified tree.
 
 use glam::{DVec3, Vec3};
-use metaball_core::{Aabb, Hit, Ray, Verdict};
+use metaball_core::{Aabb, Hit, Ray, SurfaceHit, Verdict};
 use pulp::Arch;
 
 use super::polynomial::{self, Blocks};
@@ -34,6 +34,10 @@ pub(super) struct RayState<'a> {
     /// For an exit: where it is if no leaf begins there.
     exit_face: Option<ExitFace>,
 }
+
+/// A ray that no arithmetic could decide.
+pub(in crate::trace) const UNDECIDED: SurfaceHit =
+    SurfaceHit { hit: Hit { verdict: Verdict::Undecided, ..Hit::MISS }, ..SurfaceHit::MISS };
 
 /// The far face of a leaf at which the field comes as close to T as rounding lets one decide. Outside all
 /// leaves it is below T, so the exit is there, unless another leaf begins there. For an entry there is
@@ -70,8 +74,8 @@ impl<'a> RayState<'a> {
     }
 
     /// The answer for a ray that met no crossing, nor an exit at a face.
-    fn end(&self) -> Hit {
-        if self.uncertain { Hit { verdict: Verdict::Undecided, ..Hit::MISS } } else { Hit::MISS }
+    fn end(&self) -> SurfaceHit {
+        if self.uncertain { UNDECIDED } else { SurfaceHit::MISS }
     }
 }
 
@@ -84,7 +88,7 @@ impl<F: Field> FieldTree<'_, F> {
         ray: &Ray,
         scratch: &mut Scratch,
         counter: &mut impl Counter,
-    ) -> Hit {
+    ) -> SurfaceHit {
         let mut state = RayState::new(ray);
         let hit = self.tree.first_in_order(ray, counter, |leaf, _, counter| {
             self.search_leaf(query, leaf, &mut state, scratch, counter)
@@ -99,10 +103,11 @@ impl<F: Field> FieldTree<'_, F> {
         query: &Query,
         ray: &Ray,
         scratch: &mut Scratch,
-    ) -> Hit {
+    ) -> SurfaceHit {
         if self.tree.leaf_around(ray.origin, |_| true).is_none() {
             let normal = ray.direction;
-            return Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal };
+            let hit = Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal };
+            return SurfaceHit { hit, ..SurfaceHit::MISS };
         }
         self.first_crossing(query, ray, scratch, &mut ())
     }
@@ -115,7 +120,7 @@ impl<F: Field> FieldTree<'_, F> {
         state: &mut RayState<'_>,
         scratch: &mut Scratch,
         counter: &mut impl Counter,
-    ) -> Option<Hit> {
+    ) -> Option<SurfaceHit> {
         self.tree.first_below(reference, state.ray, counter, |leaf, _, counter| {
             self.search_leaf(query, leaf, state, scratch, counter)
         })
@@ -129,7 +134,7 @@ impl<F: Field> FieldTree<'_, F> {
         state: &mut RayState<'_>,
         scratch: &mut Scratch,
         counter: &mut impl Counter,
-    ) -> Option<Hit> {
+    ) -> Option<SurfaceHit> {
         let ray = state.ray;
         let bounds = self.tree.leaves[leaf].bounds();
         let interval = state.interval(&bounds)?;
@@ -163,18 +168,15 @@ impl<F: Field> FieldTree<'_, F> {
 
     /// The hit that an answer makes; `None` when the ray continues.
     #[inline]
-    pub(super) fn hit_of(&self, answer: Answer, leaf: usize, ray: &Ray) -> Option<Hit> {
-        match answer {
-            Answer::Nothing | Answer::Undecided => None,
-            Answer::Root(t, gradient) => Some(Hit {
-                verdict: Verdict::Hit,
-                fallback: false,
-                t: t as f32,
-                normal: outward(gradient, ray),
-            }),
-            Answer::Somewhere => Some(Hit { verdict: Verdict::Hit, ..Hit::MISS }),
-            Answer::StartsBeyond => Some(self.hit_at(Verdict::Inside, leaf, ray, 0.0)),
-        }
+    pub(super) fn hit_of(&self, answer: Answer, leaf: usize, ray: &Ray) -> Option<SurfaceHit> {
+        let (t, normal) = match answer {
+            Answer::Nothing | Answer::Undecided => return None,
+            Answer::StartsBeyond => return Some(self.hit_at(Verdict::Inside, leaf, ray, 0.0)),
+            Answer::Root(t, gradient) => (t as f32, outward(gradient, ray)),
+            Answer::Somewhere => (f32::INFINITY, Vec3::ZERO),
+        };
+        let hit = Hit { verdict: Verdict::Hit, fallback: false, t, normal };
+        Some(SurfaceHit { hit, place: leaf as u32 })
     }
 
     fn search_ranges(
@@ -185,7 +187,7 @@ impl<F: Field> FieldTree<'_, F> {
         state: &mut RayState<'_>,
         scratch: &mut Scratch,
         counter: &mut impl Counter,
-    ) -> Option<Hit> {
+    ) -> Option<SurfaceHit> {
         let ray = state.ray;
         let chords = &mut scratch.chords;
         chords.gather(self.field, self.tree.list(leaf), ray, interval);
@@ -206,7 +208,7 @@ impl<F: Field> FieldTree<'_, F> {
     }
 
     /// The exit at a face, if there is one.
-    fn exit_at_face(&self, state: &RayState<'_>) -> Option<Hit> {
+    fn exit_at_face(&self, state: &RayState<'_>) -> Option<SurfaceHit> {
         let face = state.exit_face.as_ref()?;
         Some(self.hit_at(Verdict::Hit, face.leaf, state.ray, face.t as f32))
     }

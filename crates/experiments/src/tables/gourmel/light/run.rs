@@ -6,7 +6,7 @@ use anyhow::Context;
 use bench_scenes::{Overrides, load};
 use metaball_core::View;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
-use metaball_light::PathTracer;
+use metaball_light::gpu::PathTracer;
 use serde::{Deserialize, Serialize};
 
 use super::effect::Effect;

@@ -1,4 +1,5 @@
-//! What the passes read and write: twins of the structs of `light/path.wgsl`, where fields are explained.
+//! What all passes read and write: twins of the structs of `shaders/wgsl/light/path.wgsl`, where fields are
+//! explained.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -34,9 +35,9 @@ pub(crate) struct Settings {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(crate) struct Lamp {
-    toward: Vec3,
-    size: f32,
-    color: Vec3,
+    pub(crate) toward: Vec3,
+    pub(crate) size: f32,
+    pub(crate) color: Vec3,
     padding: u32,
 }
 
@@ -44,18 +45,41 @@ pub(crate) struct Lamp {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(crate) struct Path {
-    radiance: Vec3,
-    stage: u32,
-    throughput: Vec3,
-    rays_sent: u32,
-    position: Vec3,
-    clearance: f32,
-    normal: Vec3,
-    bounces: u32,
-    pending: Vec3,
-    on_floor: u32,
-    base: Vec3,
+    pub(crate) radiance: Vec3,
+    pub(crate) stage: u32,
+    pub(crate) throughput: Vec3,
+    pub(crate) rays_sent: u32,
+    pub(crate) position: Vec3,
+    pub(crate) clearance: f32,
+    pub(crate) normal: Vec3,
+    pub(crate) bounces: u32,
+    pub(crate) pending: Vec3,
+    pub(crate) on_floor: u32,
+    pub(crate) base: Vec3,
     pub(crate) undecided: u32,
+}
+
+/// The stage of a path whose ray runs outside of the solid.
+pub(crate) const OUTSIDE: u32 = 1;
+/// The stage of one whose ray runs inside.
+pub(crate) const WITHIN: u32 = 2;
+
+impl Path {
+    /// A path at the eye.
+    pub(crate) const START: Self = Self {
+        radiance: Vec3::ZERO,
+        stage: OUTSIDE,
+        throughput: Vec3::ONE,
+        rays_sent: 0,
+        position: Vec3::ZERO,
+        clearance: 0.0,
+        normal: Vec3::ZERO,
+        bounces: 0,
+        pending: Vec3::ZERO,
+        on_floor: 0,
+        base: Vec3::ZERO,
+        undecided: 0,
+    };
 }
 
 impl Settings {
@@ -76,8 +100,8 @@ impl Settings {
             refraction,
             reflectivity,
             bounces: effects.bounces,
-            shadows: u32::from(effects.shadows),
-            occlusion_rays: effects.occlusion.map_or(0, |occlusion| occlusion.rays),
+            shadows: u32::from(effects.cast_shadows()),
+            occlusion_rays: effects.occlusion_rays(),
             occlusion_reach: effects.occlusion.map_or(NO_LIMIT, |occlusion| occlusion.reach),
             lamps: effects.lamps.len() as u32,
             sample: 0,
@@ -94,6 +118,7 @@ impl Settings {
     }
 
     /// Shadow and occlusion rays of a surface point, at most.
+    #[cfg(feature = "gpu")]
     pub(crate) fn rays_per_surface(&self) -> u32 {
         self.lamps * self.shadows + self.occlusion_rays
     }
@@ -103,14 +128,14 @@ impl Lamp {
     pub(crate) fn new(lamp: &crate::Lamp) -> Self {
         Self {
             toward: lamp.toward.normalize_or(Vec3::Y),
-            size: (0.5 * lamp.diameter).clamp(0.0, 90.0).to_radians().sin(),
+            size: libm::sinf((0.5 * lamp.diameter).clamp(0.0, 90.0).to_radians()),
             color: lamp.color,
             padding: 0,
         }
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "gpu"))]
 mod tests {
     use metaball_shaders::{KernelModule, Variant, compose, host_layout, struct_layout};
 

@@ -6,11 +6,11 @@ use metaball_core::gpu::{
 };
 use metaball_core::{Scene, View};
 
-use crate::buffers::Buffers;
-use crate::passes::Passes;
-use crate::sampling::shift;
-use crate::twins::{Path, Settings};
-use crate::waves::{Waves, is_followed_by};
+use super::buffers::Buffers;
+use super::passes::Passes;
+use super::waves::{Waves, is_followed_by};
+use crate::cpu::sampling::shift;
+use crate::path::{Path, Settings};
 use crate::{Effects, Film};
 
 /// A view of a scene with its light, and the film that collects the samples. 216 bytes a pixel.
@@ -85,9 +85,9 @@ impl<'a> PathTracer<'a> {
         let follows = is_followed_by(&self.effects, renderer);
         if !follows && self.effects.end_at_first_surface() && settings.samples > 1 {
             // The method's rays go through the middles of pixels: the camera is turned instead.
-            let (right, up) = shift(settings.sample, settings.seed);
+            let moved = shift(settings.sample, settings.seed);
             let pixel = 2.0 * view.camera().half_height() / view.height() as f32;
-            view = view.with_camera(view.camera().turned(pixel * right, pixel * up));
+            view = view.with_camera(view.camera().turned(pixel * moved.x, pixel * moved.y));
             settings.samples = 1;
         }
         let bytes = bytemuck::bytes_of(&settings);

@@ -3,7 +3,7 @@
 use glam::Vec4;
 use metaball_core::gpu::{Binding, Gpu, RayBatch, RenderError, Targets};
 
-use crate::twins::{Lamp, Path, Settings};
+use crate::path::{Lamp, Path, Settings};
 use crate::{Effects, Environment};
 
 /// The buffers of a picture.

@@ -5,8 +5,8 @@ use metaball_core::gpu::{
     bind_group_layout,
 };
 
+use super::buffers::Buffers;
 use crate::Environment;
-use crate::buffers::Buffers;
 
 /// The pipelines, and the groups that all of them bind.
 #[derive(Debug)]

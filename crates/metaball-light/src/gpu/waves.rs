@@ -1,11 +1,12 @@
 //! A sample as a sequence of waves: the method answers a batch of rays, and a pass takes the answers and makes
 //! the next batch.
 
-use metaball_core::gpu::{Frame, IsoRenderer, RayQuery, RayTracer, RenderError, Targets};
+use metaball_core::RayQuery;
+use metaball_core::gpu::{Frame, IsoRenderer, RayTracer, RenderError, Targets};
 
-use crate::buffers::Buffers;
-use crate::passes::Passes;
-use crate::{Effects, Surface};
+use super::buffers::Buffers;
+use super::passes::Passes;
+use crate::Effects;
 
 /// What a sample is made with.
 pub(crate) struct Waves<'a> {
@@ -17,21 +18,10 @@ pub(crate) struct Waves<'a> {
     pub(crate) rays_per_surface: u32,
 }
 
-/// The queries that rays of these effects make.
-fn queries(effects: &Effects) -> Vec<RayQuery> {
-    match effects.surface {
-        Surface::Fluid { .. } => vec![RayQuery::FirstHit, RayQuery::Exit],
-        Surface::Opaque { .. } => {
-            let shadow = effects.need_shadow_rays().then_some(RayQuery::AnyHit);
-            [RayQuery::FirstHit].into_iter().chain(shadow).collect()
-        }
-    }
-}
-
 /// Whether the method answers every query of these effects.
 pub(crate) fn is_followed_by(effects: &Effects, renderer: &mut dyn IsoRenderer) -> bool {
     let answers_all =
-        |tracer: &mut dyn RayTracer| queries(effects).iter().all(|&query| tracer.answers(query));
+        |tracer: &mut dyn RayTracer| effects.queries().iter().all(|&query| tracer.answers(query));
     renderer.ray_tracer().is_some_and(answers_all)
 }
 
@@ -43,7 +33,7 @@ impl Waves<'_> {
         frame: &mut Frame<'_>,
     ) -> Result<(), RenderError> {
         let method = renderer.name();
-        let needed = queries(self.effects);
+        let needed = self.effects.queries();
         let tracer = renderer.ray_tracer().ok_or_else(|| self.refusal(method))?;
         let Self { passes, buffers: Buffers { path_rays, shadow_rays, .. }, .. } = self;
         passes.encode_start(frame);
@@ -90,7 +80,7 @@ impl Waves<'_> {
     fn refusal(&self, method: &'static str) -> RenderError {
         let reason = format!(
             "needed answers to the ray queries {:?} of these effects; the method has none",
-            queries(self.effects)
+            self.effects.queries()
         );
         RenderError::Unsupported { method, reason }
     }

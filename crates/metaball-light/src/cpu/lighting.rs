@@ -1,0 +1,23 @@
+//! What all effects of a picture read.
+
+use crate::path::{Lamp, Settings};
+use crate::{Effects, Environment};
+
+/// Settings, lamps and surroundings of a picture. Each effect adds its functions to it in a file of its
+/// own.
+#[derive(Debug)]
+pub(super) struct Lighting {
+    pub(super) settings: Settings,
+    pub(super) lamps: Vec<Lamp>,
+    pub(super) environment: Environment,
+}
+
+impl Lighting {
+    pub(super) fn new(effects: &Effects, samples: u32, seed: u32) -> Self {
+        Self {
+            settings: Settings::new(effects, samples, seed),
+            lamps: effects.lamps.iter().map(Lamp::new).collect(),
+            environment: effects.environment.clone(),
+        }
+    }
+}

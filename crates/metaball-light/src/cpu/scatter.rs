@@ -1,0 +1,43 @@
+//! What a surface does with light: it is lit along shadow and occlusion rays and mirrors, or it is a clear
+//! fluid.
+
+use glam::Vec3;
+use metaball_core::Ray;
+
+use super::lighting::Lighting;
+use crate::path::Path;
+
+/// A shadow or occlusion ray, and the light that it brings if it hits nothing.
+pub(super) enum Sent {
+    Shadow(Ray, Vec3),
+    Occlusion(Ray),
+}
+
+impl Lighting {
+    /// Adds the light that needs no ray.
+    pub(super) fn light_without_rays(&self, path: &mut Path, direction: Vec3) {
+        if self.settings.occlusion_rays == 0 {
+            self.add_unoccluded(path, direction);
+        }
+        if self.settings.shadows == 0 {
+            self.add_unshadowed(path, direction);
+        }
+    }
+
+    /// Every shadow and occlusion ray of a surface point, in the order in which their light is added.
+    pub(super) fn sent<'a>(
+        &'a self,
+        path: &'a Path,
+        at: (u32, u32),
+        direction: Vec3,
+    ) -> impl Iterator<Item = Sent> + 'a {
+        let to_lamps = if self.settings.shadows == 0 { 0 } else { self.lamps.len() };
+        let shadow = move |lamp| {
+            let (ray, light) = self.shadow_ray(path, at, direction, lamp)?;
+            Some(Sent::Shadow(ray, light))
+        };
+        let occlusion = move |ray| self.occlusion_ray(path, at, ray).map(Sent::Occlusion);
+        let occlusion = (0..self.settings.occlusion_rays).filter_map(occlusion);
+        (0..to_lamps).filter_map(shadow).chain(occlusion)
+    }
+}

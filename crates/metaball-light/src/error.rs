@@ -1,0 +1,12 @@
+//! What can go wrong.
+
+use metaball_core::RayQuery;
+use thiserror::Error;
+
+/// A tracer does not answer a query that effects need.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("needed answers to the ray query {query:?} of these effects; the tracer has none")]
+pub struct UnansweredError {
+    /// The query.
+    pub query: RayQuery,
+}
