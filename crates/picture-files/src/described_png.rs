@@ -4,11 +4,11 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use ::png::{BitDepth, ColorType, Decoder, Encoder};
+use ::png::Decoder;
 use metaball_core::Image;
 
 use crate::PictureFileError;
-use crate::png::check_size;
+use crate::png::encode_png_with;
 
 /// Keyword of the text.
 const KEYWORD: &str = "Description";
@@ -18,20 +18,7 @@ const KEYWORD: &str = "Description";
 /// # Errors
 /// When the image's size and its bytes do not agree.
 pub fn encode_described_png(image: &Image, description: &str) -> Result<Vec<u8>, PictureFileError> {
-    check_size(image)?;
-    let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, image.width, image.height);
-    encoder.set_color(ColorType::Rgba);
-    encoder.set_depth(BitDepth::Eight);
-    let written = encoder
-        .add_itxt_chunk(KEYWORD.to_owned(), description.to_owned())
-        .and_then(|()| encoder.write_header())
-        .and_then(|mut writer| {
-            writer.write_image_data(&image.rgba)?;
-            writer.finish()
-        });
-    written.map_err(PictureFileError::encode("a PNG"))?;
-    Ok(bytes)
+    encode_png_with(image, |png| png.add_itxt_chunk(KEYWORD.to_owned(), description.to_owned()))
 }
 
 /// The text in a file; `None` where there is no file, no whole PNG, or no text.

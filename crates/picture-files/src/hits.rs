@@ -8,7 +8,12 @@ use std::path::Path;
 use glam::Vec3;
 use metaball_core::{Hit, Verdict};
 
-use crate::{PictureFileError, write_atomically};
+use self::exr::ExrHits;
+use self::npy::NpyHits;
+use crate::PictureFileError;
+
+/// What such a file holds of a picture.
+const WHAT: &str = "hits";
 
 /// The hits of a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,12 +51,60 @@ impl Format {
     }
 }
 
-/// Writes an image of hits, row by row from the top left, each as four f32: `Z` is the distance along
-/// the unit primary ray in scene units, +∞ for a miss, 0 where the ray starts inside; `N.X`, `N.Y`,
-/// `N.Z` are the unit outward normal, zero for a miss. Where a method could not tell, Z is NaN and the
-/// normal zero.
+/// Hits on their way to the disk, each as four f32: `Z` is the distance along the unit primary ray in
+/// scene units, +∞ for a miss, 0 where the ray starts inside; `N.X`, `N.Y`, `N.Z` are the unit outward
+/// normal, zero for a miss. Where a method could not tell, Z is NaN and the normal zero.
 ///
 /// `.exr` has them as channels, `.npy` as an array of height × width × 4.
+///
+/// They come in parts, row by row from the top left, and the part written last and sixteen rows are all
+/// of them that is held. [`finish`](Self::finish) moves the file to its place; dropped before, it is
+/// removed.
+#[derive(Debug)]
+pub struct HitsFile(Encoder);
+
+#[derive(Debug)]
+enum Encoder {
+    Exr(ExrHits),
+    Npy(NpyHits),
+}
+
+impl HitsFile {
+    /// A file of this size, and of the format that its ending names.
+    ///
+    /// # Errors
+    /// When the ending is another, or the file cannot be made.
+    pub fn create(path: &Path, width: u32, height: u32) -> Result<Self, PictureFileError> {
+        Ok(Self(match Format::of(path)? {
+            Format::Exr => Encoder::Exr(ExrHits::create(path, (width, height))?),
+            Format::Npy => Encoder::Npy(NpyHits::create(path, (width, height))?),
+        }))
+    }
+
+    /// Writes the next hits, any number of them.
+    ///
+    /// # Errors
+    /// When they are more than are left, or cannot be written.
+    pub fn write(&mut self, hits: &[Hit]) -> Result<(), PictureFileError> {
+        match &mut self.0 {
+            Encoder::Exr(file) => file.write(hits),
+            Encoder::Npy(file) => file.write(hits),
+        }
+    }
+
+    /// Moves the file to its place.
+    ///
+    /// # Errors
+    /// When hits are missing, or the file cannot be written.
+    pub fn finish(self) -> Result<(), PictureFileError> {
+        match self.0 {
+            Encoder::Exr(file) => file.finish(),
+            Encoder::Npy(file) => file.finish(),
+        }
+    }
+}
+
+/// Writes an image of hits, row by row from the top left, as a [`HitsFile`].
 ///
 /// # Errors
 /// When there are not width times height hits, the ending is another, or the file cannot be written.
@@ -61,19 +114,9 @@ pub fn write_hits(
     height: u32,
     hits: &[Hit],
 ) -> Result<(), PictureFileError> {
-    let size = (width as usize, height as usize);
-    if hits.len() != size.0 * size.1 {
-        return Err(PictureFileError::Size {
-            what: "hits".to_owned(),
-            needed: format!("{width} × {height} pixels"),
-            found: hits.len(),
-        });
-    }
-    let bytes = match Format::of(path)? {
-        Format::Exr => exr::encode(path, size, hits)?,
-        Format::Npy => npy::encode(path, size, hits)?,
-    };
-    write_atomically(path, &bytes)
+    let mut file = HitsFile::create(path, width, height)?;
+    file.write(hits)?;
+    file.finish()
 }
 
 /// Reads what [`write_hits`] writes, and what other programs write like it: distances as f32, f16 (in

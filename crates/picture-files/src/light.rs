@@ -1,13 +1,12 @@
 //! Linear light: pictures before they are tone mapped, and surroundings.
 
-use std::io::Cursor;
 use std::path::Path;
 
-use exr::prelude::{SpecificChannels, WritableImage};
 use glam::Vec3;
 use image::{DynamicImage, ImageReader};
 
-use crate::{PictureFileError, write_atomically};
+use crate::PictureFileError;
+use crate::scan_lines::ScanLines;
 
 /// An image of linear light, red, green and blue, not limited to 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,7 +19,40 @@ pub struct LightImage {
     pub light: Vec<Vec3>,
 }
 
-/// Writes linear light as OpenEXR: three f32 channels.
+/// Linear light on its way to the disk: OpenEXR, three channels of f32.
+///
+/// It comes in parts, row by row from the top left, and the part written last and sixteen rows are all of
+/// it that is held. [`finish`](Self::finish) moves the file to its place; dropped before, it is removed.
+#[derive(Debug)]
+pub struct LightFile(ScanLines<3>);
+
+impl LightFile {
+    /// A file of this size.
+    ///
+    /// # Errors
+    /// When the file cannot be made.
+    pub fn create(path: &Path, width: u32, height: u32) -> Result<Self, PictureFileError> {
+        ScanLines::create(path, "light", (width, height), ["B", "G", "R"]).map(Self)
+    }
+
+    /// Writes the light of the next pixels, any number of them.
+    ///
+    /// # Errors
+    /// When they are more than are left, or cannot be written.
+    pub fn write(&mut self, light: &[Vec3]) -> Result<(), PictureFileError> {
+        self.0.write(light.iter().map(|light| [light.z, light.y, light.x]))
+    }
+
+    /// Moves the file to its place.
+    ///
+    /// # Errors
+    /// When pixels are missing, or the file cannot be written.
+    pub fn finish(self) -> Result<(), PictureFileError> {
+        self.0.finish()
+    }
+}
+
+/// Writes linear light, row by row from the top left, as a [`LightFile`].
 ///
 /// # Errors
 /// When there is not one value for each pixel, or the file cannot be written.
@@ -30,24 +62,9 @@ pub fn write_light(
     height: u32,
     light: &[Vec3],
 ) -> Result<(), PictureFileError> {
-    let (across, down) = (width as usize, height as usize);
-    if light.len() != across * down {
-        return Err(PictureFileError::Size {
-            what: "light".to_owned(),
-            needed: format!("{width} × {height} pixels"),
-            found: light.len(),
-        });
-    }
-    let pixel = |at: exr::math::Vec2<usize>| {
-        let light = light[at.y() * across + at.x()];
-        (light.x, light.y, light.z)
-    };
-    let mut file = Cursor::new(Vec::new());
-    exr::image::Image::from_channels((across, down), SpecificChannels::rgb(pixel))
-        .write()
-        .to_buffered(&mut file)
-        .map_err(PictureFileError::encode(path.display().to_string()))?;
-    write_atomically(path, file.get_ref())
+    let mut file = LightFile::create(path, width, height)?;
+    file.write(light)?;
+    file.finish()
 }
 
 /// Reads linear light from a file that holds linear light: OpenEXR or Radiance HDR.

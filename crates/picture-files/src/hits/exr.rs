@@ -1,52 +1,39 @@
 //! Hits as OpenEXR: f32 channels `Z`, `N.X`, `N.Y`, `N.Z`.
 
 use std::fs::File;
-use std::io::{BufReader, Cursor};
+use std::io::BufReader;
 use std::path::Path;
 
-use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes};
-use exr::prelude::{ReadChannels, ReadLayers, Vec2, WritableImage, read};
+use exr::prelude::{AnyChannel, FlatSamples, ReadChannels, ReadLayers, read};
 use metaball_core::Hit;
 
-use super::{HitImage, values};
+use super::{HitImage, WHAT, values};
 use crate::PictureFileError;
+use crate::scan_lines::ScanLines;
 
 /// Channels of normals.
 const NORMALS: [&str; 3] = ["N.X", "N.Y", "N.Z"];
 
-/// The file of width times height hits.
-pub(super) fn encode(
-    path: &Path,
-    (width, height): (usize, usize),
-    hits: &[Hit],
-) -> Result<Vec<u8>, PictureFileError> {
-    let size = Vec2(width, height);
-    let value = |index: usize| move |hit: &Hit| values(hit)[index];
-    let channels = [
-        channel("Z", hits, value(0)),
-        channel(NORMALS[0], hits, value(1)),
-        channel(NORMALS[1], hits, value(2)),
-        channel(NORMALS[2], hits, value(3)),
-    ];
-    let layer = Layer::new(
-        size,
-        LayerAttributes::default(),
-        Encoding::SMALL_LOSSLESS,
-        AnyChannels::sort(channels.into_iter().collect()),
-    );
-    let mut file = Cursor::new(Vec::new());
-    Image::from_layer(layer)
-        .write()
-        .to_buffered(&mut file)
-        .map_err(PictureFileError::encode(path.display().to_string()))?;
-    Ok(file.into_inner())
+/// A file of hits that come in parts.
+#[derive(Debug)]
+pub(super) struct ExrHits(ScanLines<4>);
+
+impl ExrHits {
+    pub(super) fn create(path: &Path, size: (u32, u32)) -> Result<Self, PictureFileError> {
+        let [x, y, z] = NORMALS;
+        ScanLines::create(path, WHAT, size, [x, y, z, "Z"]).map(Self)
+    }
+
+    pub(super) fn write(&mut self, hits: &[Hit]) -> Result<(), PictureFileError> {
+        self.0.write(hits.iter().map(values).map(|[t, x, y, z]| [x, y, z, t]))
+    }
+
+    pub(super) fn finish(self) -> Result<(), PictureFileError> {
+        self.0.finish()
+    }
 }
 
-fn channel(name: &str, hits: &[Hit], value: impl Fn(&Hit) -> f32) -> AnyChannel<FlatSamples> {
-    AnyChannel::new(name, FlatSamples::F32(hits.iter().map(value).collect()))
-}
-
-/// Reads what [`encode`] makes: channels of f32 or f16, with or without normals.
+/// Reads what [`ExrHits`] makes: channels of f32 or f16, with or without normals.
 pub(super) fn read_file(path: &Path) -> Result<HitImage, PictureFileError> {
     let file = File::open(path).map_err(PictureFileError::io("open", path))?;
     let image = read()
@@ -89,6 +76,7 @@ pub(super) fn read_file(path: &Path) -> Result<HitImage, PictureFileError> {
 
 #[cfg(test)]
 mod tests {
+    use exr::prelude::Vec2;
     use glam::Vec3;
     use metaball_core::Verdict;
 

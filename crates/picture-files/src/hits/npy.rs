@@ -1,33 +1,56 @@
 //! Hits as NumPy arrays: height × width × 4 numbers, Z, N.X, N.Y, N.Z; or height × width distances.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, BufWriter};
 use std::path::Path;
 
 use metaball_core::Hit;
-use npyz::{DType, NpyFile, Order, TypeChar, WriterBuilder};
+use npyz::{DType, NpyFile, NpyWriter, Order, TypeChar, WriterBuilder};
 
-use super::{HitImage, values};
+use super::{HitImage, WHAT, values};
 use crate::PictureFileError;
+use crate::draft::Draft;
+use crate::pixel_count::PixelCount;
 
-/// The file of width times height hits.
-pub(super) fn encode(
-    path: &Path,
-    (width, height): (usize, usize),
-    hits: &[Hit],
-) -> Result<Vec<u8>, PictureFileError> {
-    let mut bytes = Vec::new();
-    let mut write = || -> std::io::Result<()> {
-        let mut writer = npyz::WriteOptions::new()
+/// A file of hits that come in parts.
+pub(super) struct NpyHits {
+    draft: Draft,
+    array: NpyWriter<f32, BufWriter<File>>,
+    count: PixelCount,
+}
+
+impl NpyHits {
+    pub(super) fn create(
+        path: &Path,
+        (width, height): (u32, u32),
+    ) -> Result<Self, PictureFileError> {
+        let draft = Draft::create(path)?;
+        let file = draft.file().map_err(draft.error())?;
+        let array = npyz::WriteOptions::new()
             .default_dtype()
-            .shape(&[height as u64, width as u64, 4])
-            .writer(&mut bytes)
-            .begin_nd()?;
-        writer.extend(hits.iter().flat_map(values))?;
-        writer.finish()
-    };
-    write().map_err(PictureFileError::encode(path.display().to_string()))?;
-    Ok(bytes)
+            .shape(&[height.into(), width.into(), 4])
+            .writer(BufWriter::new(file))
+            .begin_nd();
+        let array = array.map_err(draft.error())?;
+        Ok(Self { draft, array, count: PixelCount::new(WHAT, width, height) })
+    }
+
+    pub(super) fn write(&mut self, hits: &[Hit]) -> Result<(), PictureFileError> {
+        self.count.add(hits.len())?;
+        self.array.extend(hits.iter().flat_map(values)).map_err(self.draft.error())
+    }
+
+    pub(super) fn finish(self) -> Result<(), PictureFileError> {
+        self.count.finish()?;
+        self.array.finish().map_err(self.draft.error())?;
+        self.draft.keep()
+    }
+}
+
+impl std::fmt::Debug for NpyHits {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("NpyHits").field("draft", &self.draft).finish_non_exhaustive()
+    }
 }
 
 /// Reads f32 or f64 of either shape.
