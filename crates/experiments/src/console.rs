@@ -42,7 +42,7 @@ impl ProgressBar {
     /// A bar of so many steps.
     pub fn new(steps: u64) -> Self {
         let bar = indicatif::ProgressBar::new(steps);
-        let template = "{elapsed_precise} {wide_bar:.cyan} {pos}/{len}  {msg:60!}";
+        let template = "{elapsed_precise} {wide_bar:.cyan} {percent:>3} % {pos}/{len}  {msg:60!}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
@@ -63,6 +63,13 @@ impl ProgressBar {
             self.bar.set_message(text);
         } else {
             note(&text);
+        }
+    }
+
+    /// Shows how long all is likely to take yet; nothing without a terminal.
+    pub fn show_left(&self) {
+        if let (true, Some(left)) = (self.watched, self.left()) {
+            self.bar.set_message(format!("{} left", HumanDuration(left)));
         }
     }
 

@@ -1,7 +1,8 @@
 //! The commands that draw: `render` and `animate`.
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use anyhow::{Context, bail, ensure};
 use bench_scenes::{Moving, load};
@@ -12,8 +13,9 @@ use harness::auto::cache::Cache;
 use harness::methods::find;
 use harness::numbers::{decimal, grouped};
 use metaball::{
-    AnimateOptions, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions, Drawing,
-    Error, FrameOutcome, Lit, Method, NumberedPath, Overrides, animate, draw_with_progress,
+    AnimateOptions, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions, Error,
+    FrameOutcome, Method, NumberedPath, Outputs, Overrides, Progress, Summary, Tally, animate,
+    draw_to_files,
 };
 use metaball_core::{Color, Picture, Scene};
 
@@ -103,12 +105,17 @@ pub(crate) struct RenderArgs {
     /// Write the picture's linear light as an OpenEXR file too.
     #[arg(long, value_name = "FILE", requires = "LightArgs")]
     light_out: Option<PathBuf>,
+    /// Go on with a picture that the CPU began and that was interrupted. What is finished is in a file
+    /// beside the PNG, named like it with .spool behind; without this it is in the way of drawing the
+    /// same picture anew.
+    #[arg(long)]
+    resume: bool,
 }
 
 impl RenderArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         let auto = self.choosing()?;
-        let Self { drawing, out, hits, light_out, .. } = self;
+        let Self { drawing, out, hits, light_out, resume, .. } = self;
         let Request { scene, overrides, options } = drawing.request(auto)?;
         if matches!(options.method, Method::Auto(_)) {
             ensure!(
@@ -118,29 +125,19 @@ impl RenderArgs {
             console::note("auto: drawing with every candidate, and asking the oracle");
         }
         let bench = load(&scene, &overrides)?;
-        let mut progress = None;
-        let drawing = draw_with_progress(&bench.scene, &bench.camera, &options, |_, samples| {
-            progress.get_or_insert_with(|| ProgressBar::new(samples.into())).advance(1);
+        let outputs = Outputs { image: out, hits, light: light_out, resume };
+        let mut bar = None;
+        let summary = draw_to_files(&bench.scene, &bench.camera, &options, &outputs, |progress| {
+            show(progress, bar.get_or_insert_with(|| ProgressBar::new(progress.of.into())));
+            ControlFlow::Continue(())
         });
-        drop(progress);
-        let drawing = drawing.map_err(by_flag)?;
-        drawing.save_image(&out)?;
-        if let Some(path) = &hits {
-            drawing.save_hits(path)?;
-        }
-        if let Some(path) = &light_out {
-            drawing.save_light(path)?;
-        }
-        report(&bench.name, &bench.scene, &drawing);
-        line("picture", &out.display().to_string());
-        if let Some(lit) = &drawing.light {
-            line("light", &light_facts(lit));
-        }
-        if let Some(range) = drawing.range {
-            line("scale", &format!("{} to {}", range.low, range.high));
-        }
-        if let Some(path) = &hits {
-            line("hits file", &path.display().to_string());
+        drop(bar);
+        report(&bench.name, &bench.scene, &summary.map_err(by_flag)?);
+        let files = [("picture", Some(&outputs.image)), ("hits file", outputs.hits.as_ref())];
+        for (name, path) in files.into_iter().chain([("light file", outputs.light.as_ref())]) {
+            if let Some(path) = path {
+                line(name, &path.display().to_string());
+            }
         }
         Ok(())
     }
@@ -249,27 +246,50 @@ fn line(name: &str, value: &str) {
     console::line(&format!("{name:<10} {value}"));
 }
 
-fn report(name: &str, scene: &Scene, drawing: &Drawing) {
+/// Shows how far a picture is.
+fn show(progress: Progress, bar: &ProgressBar) {
+    let Progress { done, resumed, .. } = progress;
+    if done == resumed {
+        bar.skip(done.into());
+    } else {
+        bar.reach(done.into());
+    }
+    bar.show_left();
+}
+
+fn report(name: &str, scene: &Scene, summary: &Summary) {
+    let Summary { tally, range, samples, account, computed_by, build, .. } = summary;
+    let time = |time: &Duration| ms(1e3 * time.as_secs_f64());
     line("scene", name);
     line("balls", &format!("{} of kernel {}", grouped(scene.len()), scene.kernel()));
     line("threshold", &scene.threshold().to_string());
-    for (name, value) in &drawing.account {
+    for (name, value) in account {
         line(name, value);
     }
-    line("adapter", &drawing.computed_by);
-    line("build", &ms(1e3 * drawing.build.as_secs_f64()));
-    line("frame", &ms(1e3 * drawing.frame.as_secs_f64()));
-    let (hits, rays) = (grouped(drawing.hit_count()), grouped(drawing.hits.len()));
-    line("hits", &format!("{hits} of {rays} rays"));
+    line("adapter", computed_by);
+    line("build", &time(build));
+    line("frame", &time(&tally.frame));
+    line("rays", &ray_facts(tally));
+    if let Some(samples) = samples {
+        line("light", &light_facts(tally, *samples));
+    }
+    if let Some(range) = range {
+        line("scale", &format!("{} to {}", range.low, range.high));
+    }
 }
 
-fn light_facts(lit: &Lit) -> String {
-    let each = decimal(1e3 * lit.time.as_secs_f64() / f64::from(lit.samples));
-    let undecided = match lit.undecided {
-        0 => String::new(),
-        rays => format!(", {rays} rays undecided in the last"),
-    };
-    format!("{} samples of {each} ms{undecided}", lit.samples)
+fn ray_facts(tally: &Tally) -> String {
+    let counts = [tally.pixels(), tally.hits, tally.misses, tally.inside, tally.undecided];
+    let [all, hits, misses, inside, undecided] = counts.map(|rays| grouped(rays as usize));
+    format!("{all}: {hits} hits, {misses} misses, {inside} inside, {undecided} undecided")
+}
+
+fn light_facts(tally: &Tally, samples: u32) -> String {
+    let each = decimal(1e3 * tally.light.as_secs_f64() / f64::from(samples));
+    format!(
+        "{samples} samples of {each} ms, {} rays undecided",
+        grouped(tally.undecided_light as usize)
+    )
 }
 
 fn outcome_text(outcome: &FrameOutcome) -> String {

@@ -1,5 +1,6 @@
 //! Pinhole cameras, and views: cameras with an image size.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
@@ -286,19 +287,26 @@ impl View {
     /// The view's rays, row by row from the top left: exact directions, rounded once. They end where
     /// the opaque scene does. Made on rayon's current pool.
     pub fn rays(&self) -> Vec<Ray> {
+        self.rays_of_rows(0..self.height)
+    }
+
+    /// The same of some rows, counted from the top; of those that the view has.
+    pub fn rays_of_rows(&self, rows: Range<u32>) -> Vec<Ray> {
         let Self { camera, width, height, .. } = self;
+        let rows = rows.start.min(*height)..rows.end.min(*height);
         // A picture has few columns and rows, and many pixels.
         let columns: Vec<DVec3> =
             (0..*width).map(|column| camera.towards_column(column, *width, *height)).collect();
-        let rows: Vec<DVec3> = (0..*height).map(|row| camera.up_to_row(row, *height)).collect();
-        let ray = |pixel: u32| {
-            let (column, row) = ((pixel % width) as usize, (pixel / width) as usize);
-            let direction = (columns[column] + rows[row]).normalize().as_vec3();
-            let opaque = self.opaque_distance().map(|distances| distances[pixel as usize]);
+        let above: Vec<DVec3> = rows.clone().map(|row| camera.up_to_row(row, *height)).collect();
+        let first = rows.start as usize * *width as usize;
+        let ray = |pixel: usize| {
+            let (column, row) = (pixel % columns.len(), pixel / columns.len());
+            let direction = (columns[column] + above[row]).normalize().as_vec3();
+            let opaque = self.opaque_distance().map(|distances| distances[first + pixel]);
             let t_max = opaque.map_or(NO_LIMIT, |distance| distance.min(NO_LIMIT));
             Ray { origin: camera.eye, direction, t_max }
         };
-        (0..width * height).into_par_iter().map(ray).collect()
+        (0..columns.len() * above.len()).into_par_iter().map(ray).collect()
     }
 }
 
@@ -348,6 +356,22 @@ mod tests {
             let t_max = [2.5, NO_LIMIT][pixel as usize % 2];
             assert_eq!(ray, Ray { origin: view.camera().eye(), direction, t_max });
         }
+    }
+
+    #[test]
+    fn rows_have_the_rays_of_the_view() {
+        let (width, height) = (37, 23);
+        let distances: Arc<[f32]> = (0..width * height).map(|pixel| pixel as f32).collect();
+        let view = View::new(camera().turned(0.3, -0.2), width, height).expect("legal");
+        let view = view.with_opaque_distance(distances).expect("a distance a pixel");
+        for step in [1, 8, 16, 23, 40] {
+            let bands = (0..height).step_by(step);
+            let rays: Vec<Ray> =
+                bands.flat_map(|row| view.rays_of_rows(row..row + step as u32)).collect();
+            assert!(rays == view.rays(), "in steps of {step} rows");
+        }
+        assert_eq!(view.rays_of_rows(23..30), []);
+        assert_ne!(view.rays_of_rows(0..8), view.rays_of_rows(8..16));
     }
 
     #[test]

@@ -64,10 +64,18 @@ impl ValueRange {
     /// Distances of the nearest and the farthest hit, the scale of [`Picture::Depth`]; 0 and 0 where
     /// there is no hit.
     pub fn of_distances(hits: &[Hit]) -> Self {
-        let distances = || hits.iter().filter(|hit| hit.is_hit()).map(|hit| hit.t);
-        Self {
-            low: distances().reduce(f32::min).unwrap_or(0.0),
-            high: distances().reduce(f32::max).unwrap_or(0.0),
-        }
+        Self::spanned(hits).unwrap_or_default()
+    }
+
+    /// The same of a part of a picture; `None` where there is no hit.
+    pub fn spanned(hits: &[Hit]) -> Option<Self> {
+        let distances = hits.iter().filter(|hit| hit.is_hit()).map(|hit| hit.t);
+        distances.map(|t| Self { low: t, high: t }).reduce(Self::union)
+    }
+
+    /// From the lesser of both lows to the greater of both highs.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 }

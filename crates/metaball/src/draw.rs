@@ -1,15 +1,19 @@
 //! One picture.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
 
 use metaball_core::gpu::{self, Gpu, IsoRenderer, RenderError, Shading, Targets};
-use metaball_core::{Camera, Hit, Image, Picture, Scene, Shaded, ValueRange, View};
-use picture_files::{encode_png, write_atomically, write_hits, write_light};
+use metaball_core::{Camera, Hit, Image, Picture, Scene, ValueRange, View};
+use metaball_light::Film;
+use picture_files::{write_hits, write_light, write_png};
 
-use crate::light::Lit;
-use crate::shade::{self, CpuPicture};
-use crate::{Backend, Error, LightOptions, Method, Viewpoint, cpu};
+use crate::band::{BAND_PIXELS, Band, Planes, bands};
+use crate::cpu::{self, Finisher, Painter};
+use crate::shade::CpuPicture;
+use crate::summary::{Progress, Summary, Tally};
+use crate::{Backend, Error, LightOptions, Method, Viewpoint};
 
 /// How to draw.
 #[derive(Debug, Clone)]
@@ -50,19 +54,10 @@ pub struct Drawing {
     pub image: Image,
     /// The first hit of each primary ray, row by row from the top left.
     pub hits: Vec<Hit>,
-    /// What black and white stand for in pictures of a number.
-    pub range: Option<ValueRange>,
     /// Ray traced light, where there is any.
-    pub light: Option<Lit>,
-    /// The method, or what was chosen and why, as names and texts.
-    pub account: Vec<(&'static str, String)>,
-    /// What computed, in words.
-    pub computed_by: String,
-    /// Time for the structure.
-    pub build: Duration,
-    /// Time for the rays; on an adapter that of a second frame, since shaders are compiled with the
-    /// first.
-    pub frame: Duration,
+    pub film: Option<Film>,
+    /// What is to be said of it.
+    pub summary: Summary,
 }
 
 impl Drawing {
@@ -76,11 +71,11 @@ impl Drawing {
     /// # Errors
     /// When the file cannot be written.
     pub fn save_image(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        Ok(write_atomically(path.as_ref(), &encode_png(&self.image)?)?)
+        Ok(write_png(path.as_ref(), &self.image)?)
     }
 
     /// Writes distances (`Z`, along the unit primary ray) and normals (`N.X`, `N.Y`, `N.Z`) as f32
-    /// channels of an OpenEXR file: see [`picture_files::write_hits`].
+    /// channels of an OpenEXR file: see [`picture_files::HitsFile`].
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -94,67 +89,95 @@ impl Drawing {
     /// # Errors
     /// When there is no ray traced light, or the file cannot be written.
     pub fn save_light(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        let lit = self.light.as_ref().ok_or_else(|| Error::Option {
-            option: "light",
-            needed: "an option of light, such as shadows".to_owned(),
-            found: "none".to_owned(),
-        })?;
-        Ok(write_light(path.as_ref(), lit.film.width, lit.film.height, &lit.film.light)?)
+        let film = self.film.as_ref().ok_or_else(no_light)?;
+        Ok(write_light(path.as_ref(), film.width, film.height, &film.light)?)
     }
 }
 
-/// Draws a scene. `camera` is the scene's own.
+/// Why there is no file of light.
+pub(crate) fn no_light() -> Error {
+    Error::Option {
+        option: "light",
+        needed: "an option of light, such as shadows".to_owned(),
+        found: "none".to_owned(),
+    }
+}
+
+/// Draws a scene. `camera` is the scene's own. The picture is held in memory, 28 bytes a pixel, and 12
+/// more with ray traced light; [`draw_to_files`](crate::draw_to_files()) does not.
 ///
 /// # Errors
 /// When an option cannot be used, or method or adapter cannot draw the scene.
 pub fn draw(scene: &Scene, camera: &Camera, options: &DrawOptions) -> Result<Drawing, Error> {
-    draw_with_progress(scene, camera, options, |_, _| ())
-}
-
-/// As [`draw()`]; after each sample of ray traced light the callback gets how many are done, and of how
-/// many.
-///
-/// # Errors
-/// As [`draw()`].
-pub fn draw_with_progress(
-    scene: &Scene,
-    camera: &Camera,
-    options: &DrawOptions,
-    after_sample: impl FnMut(u32, u32),
-) -> Result<Drawing, Error> {
-    let (width, height) = options.size;
-    let camera = options.viewpoint.camera(camera, scene.bounds().center())?;
-    let view = View::new(camera, width, height)?;
-    match options.backend.open()? {
-        Some(gpu) => on_adapter(&gpu, options, scene, &view, after_sample),
-        None => on_cpu(options, scene, &view),
+    let view = options.view(scene, camera)?;
+    let gpu = options.backend.open()?;
+    match on_adapter(gpu.as_ref(), options, scene, &view, |_| ControlFlow::Continue(()))? {
+        Attempt::Drawn(drawing) => Ok(*drawing),
+        Attempt::Left { computed_by } => {
+            let drawing = on_cpu(options, scene, &view)?;
+            Ok(Drawing { summary: Summary { computed_by, ..drawing.summary }, ..drawing })
+        }
     }
 }
 
-fn on_adapter(
+/// What became of a picture that an adapter was to draw.
+pub(crate) enum Attempt {
+    /// It is drawn.
+    Drawn(Box<Drawing>),
+    /// It is left to the CPU, for the reason that these words give.
+    Left { computed_by: String },
+}
+
+/// Draws a picture on the adapter, if there is one and the picture fits. After each sample of ray traced
+/// light the callback gets how many are done, and may break off.
+pub(crate) fn on_adapter(
+    gpu: Option<&Gpu>,
+    options: &DrawOptions,
+    scene: &Scene,
+    view: &View,
+    progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Attempt, Error> {
+    let Some(gpu) = gpu else {
+        return Ok(Attempt::Left { computed_by: options.backend.describe(None) });
+    };
+    match drawn_by(gpu, options, scene, view, progress) {
+        Ok(drawing) => Ok(Attempt::Drawn(Box::new(drawing))),
+        Err(Error::Render(refusal)) if refusal.is_too_large() => options.left_to_cpu(refusal),
+        Err(error) => Err(error),
+    }
+}
+
+fn drawn_by(
     gpu: &Gpu,
     options: &DrawOptions,
     scene: &Scene,
     view: &View,
-    after_sample: impl FnMut(u32, u32),
+    progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Drawing, Error> {
     let targets = options.targets(gpu, scene)?;
     let Built { mut renderer, build, account } = built(gpu, options, scene, view)?;
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
-    let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?;
+    let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?.wall;
     let hits = targets.read_hits(gpu)?;
-    let (image, range, light) = if options.light.is_asked() {
-        let lighting = options.light.lighting(view.camera(), scene)?;
-        let (image, lit) =
-            lighting.draw(gpu, renderer.as_mut(), scene, view, &hits, after_sample)?;
-        (image, None, Some(lit))
-    } else {
-        let shaded = Shading::new(gpu).draw(&targets, view, scene, options.picture)?;
-        (shaded.image, shaded.range, None)
+    let tally = Tally { frame, ..Tally::of(&hits) };
+    let mut summary = Summary {
+        tally,
+        range: None,
+        samples: None,
+        account,
+        computed_by: options.backend.describe(Some(gpu)),
+        build,
     };
-    let computed_by = options.backend.describe(Some(gpu));
-    let frame = frame.wall;
-    Ok(Drawing { image, hits, range, light, account, computed_by, build, frame })
+    if !options.light.is_asked() {
+        let shaded = Shading::new(gpu).draw(&targets, view, scene, options.picture)?;
+        summary.range = shaded.range;
+        return Ok(Drawing { image: shaded.image, hits, film: None, summary });
+    }
+    let lighting = options.light.lighting(view.camera(), scene)?;
+    let lit = lighting.draw(gpu, renderer.as_mut(), scene, view, &hits, progress)?;
+    summary.samples = Some(lit.samples);
+    (summary.tally.light, summary.tally.undecided_light) = (lit.time, lit.undecided);
+    Ok(Drawing { image: lit.image, hits, film: Some(lit.film), summary })
 }
 
 /// A renderer that has its scene.
@@ -196,28 +219,52 @@ fn chosen(
 
 /// Traces and shades without an adapter.
 pub(crate) fn on_cpu(options: &DrawOptions, scene: &Scene, view: &View) -> Result<Drawing, Error> {
-    if options.light.is_asked() {
-        return Err(Error::NeedsAdapter {
-            what: "light".to_owned(),
-            instead: CpuPicture::CHOICE.to_owned(),
-        });
+    let built = cpu::build(&options.method, scene)?;
+    let painter = Painter::new(&built, scene, view, options)?;
+    let planes = Planes { pixels: !painter.waits(), hits: true, light: false };
+    let mut whole = Band::default();
+    for rows in bands(view, 0, BAND_PIXELS) {
+        whole.append(painter.band(rows, planes));
     }
-    let picture = CpuPicture::of(options.picture)?;
-    let traced = cpu::trace(&options.method, scene, view)?;
-    let Shaded { image, range } = shade::draw(scene, view, &traced.rays, &traced.hits, picture);
-    Ok(Drawing {
-        image,
+    let range = painter.waits().then(|| ValueRange::of_distances(&whole.hits));
+    if let Some(range) = range {
+        Finisher::new(&painter, range).finish(&mut whole);
+    }
+    let Band { pixels, hits, tally, .. } = whole;
+    let image = Image::new(view.width(), view.height(), &pixels);
+    let summary = Summary {
+        tally,
         range,
-        hits: traced.hits,
-        light: None,
+        samples: None,
         account: options.method.account(),
         computed_by: options.backend.describe(None),
-        build: traced.build,
-        frame: traced.frame,
-    })
+        build: built.time,
+    };
+    Ok(Drawing { image, hits, film: None, summary })
 }
 
 impl DrawOptions {
+    /// The view that is drawn; `camera` is the scene's own.
+    pub(crate) fn view(&self, scene: &Scene, camera: &Camera) -> Result<View, Error> {
+        let (width, height) = self.size;
+        let camera = self.viewpoint.camera(camera, scene.bounds().center())?;
+        Ok(View::new(camera, width, height)?)
+    }
+
+    /// Leaves a picture that does not fit the adapter to the CPU, if the CPU can draw it.
+    fn left_to_cpu(&self, refusal: RenderError) -> Result<Attempt, Error> {
+        let shades = !self.light.is_asked() && CpuPicture::of(self.picture).is_ok();
+        let instead = match self.method.tree() {
+            Some(_) if shades => {
+                let computed_by = format!("the CPU, since the picture is too large: {refusal}");
+                return Ok(Attempt::Left { computed_by });
+            }
+            Some(_) => "a smaller size may fit",
+            None => "a smaller size may fit; the CPU draws any with bvh, fbvh or fbvh-certified",
+        };
+        Err(Error::TooLarge { refusal, instead })
+    }
+
     /// What the frames of such a scene are drawn to.
     pub(crate) fn targets(&self, gpu: &Gpu, scene: &Scene) -> Result<Targets, RenderError> {
         let (width, height) = self.size;

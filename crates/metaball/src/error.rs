@@ -1,6 +1,7 @@
 //! What can go wrong.
 
 use std::ops::Range;
+use std::path::PathBuf;
 
 use metaball_core::gpu::{GpuError, RenderError};
 use metaball_core::{CameraError, ViewError};
@@ -46,6 +47,14 @@ pub enum Error {
     /// The method or the adapter cannot draw the scene.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The picture, or the scene, does not fit the adapter.
+    #[error("{refusal}; {instead}")]
+    TooLarge {
+        /// What, what it needs, and what the adapter has.
+        refusal: RenderError,
+        /// What would.
+        instead: &'static str,
+    },
     /// A tree cannot be built for the scene.
     #[error("method {method}")]
     Build {
@@ -60,6 +69,51 @@ pub enum Error {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] PictureFileError),
+    /// The finished rows of this very picture were left by an interrupted run, and would be lost.
+    #[error(
+        "{}: {rows} of {height} rows of this picture are there; resume goes on with them, without \
+         that file it is drawn anew",
+        path.display()
+    )]
+    Unfinished {
+        /// The spool.
+        path: PathBuf,
+        /// The rows that are there.
+        rows: u32,
+        /// The rows of the picture.
+        height: u32,
+    },
+    /// To be resumed is another picture than the one that was interrupted.
+    #[error(
+        "{}: needed the {what} of this picture, {needed}, found {found}; without resume it is drawn \
+         anew",
+        path.display()
+    )]
+    OtherPicture {
+        /// The spool.
+        path: PathBuf,
+        /// What is different.
+        what: String,
+        /// What it is now.
+        needed: String,
+        /// What it was then.
+        found: String,
+    },
+    /// The file of finished rows is of something else.
+    #[error("{}: needed a spool of finished rows, found another file", path.display())]
+    NoSpool {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another run draws to the same file.
+    #[error("{}: needed a spool for this run alone, found it in use by another", path.display())]
+    SpoolInUse {
+        /// The spool.
+        path: PathBuf,
+    },
+    /// Whoever watched the picture broke it off.
+    #[error("interrupted")]
+    Interrupted,
     /// What an animation's scenes say of themselves.
     #[error(transparent)]
     Frames(BoxError),

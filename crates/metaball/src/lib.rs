@@ -23,6 +23,8 @@
 //!   [`Viewpoint`], [what it shows](DrawOptions::picture), [`LightOptions`], [which method](Method) and
 //!   [what computes](Backend). All of them have defaults. The result is a [`Drawing`]: the image, and
 //!   distance, normal and verdict of every ray.
+//! - [`draw_to_files`] draws it to files band by band, so that it may be of any size, and goes on with one
+//!   that was interrupted.
 //! - [`animate()`] draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
 //!   while the structure of the next one is built.
 //!
@@ -32,21 +34,26 @@
 
 mod animate;
 mod backend;
+mod band;
 mod cpu;
 mod draw;
 mod error;
+mod files;
 mod light;
 mod method;
 mod shade;
+mod spool;
+mod summary;
 mod viewpoint;
 
 pub use animate::{
     AnimateOptions, AnimationEvent, AnimationReport, FrameOutcome, FrameReport, FrameTimes, animate,
 };
 pub use backend::Backend;
-pub use draw::{DrawOptions, Drawing, draw, draw_with_progress};
+pub use draw::{DrawOptions, Drawing, draw};
 pub use error::Error;
-pub use light::{FloorKind, LightOptions, Lit};
+pub use files::{Outputs, draw_to_files};
+pub use light::{FloorKind, LightOptions};
 pub use metaball_core::gpu::AdapterChoice;
 pub use metaball_core::{Camera, Hit, Image, Picture, Scene, Verdict, View, WorkKind};
 #[cfg(feature = "harness")]
@@ -55,4 +62,5 @@ pub use method::Method;
 pub use particle_files::{
     AnimatedScene, BoxError, Loaded, NumberedPath, Overrides, Sequence, load,
 };
+pub use summary::{Progress, Summary, Tally};
 pub use viewpoint::Viewpoint;

@@ -4,5 +4,4 @@ mod lighting;
 mod options;
 
 pub(crate) use lighting::Lighting;
-pub use lighting::Lit;
 pub use options::{FloorKind, LightOptions};

@@ -3,8 +3,7 @@
 
 use glam::Vec3;
 use metaball_core::{
-    Camera, Color, Hit, Image, Picture, Ray, Scene, Shaded, SurfaceColors, ValueRange, Verdict,
-    View,
+    Camera, Color, Hit, Picture, Ray, Scene, SurfaceColors, ValueRange, Verdict, View,
 };
 use rayon::prelude::*;
 
@@ -47,38 +46,55 @@ impl CpuPicture {
     }
 }
 
-/// The picture of hits, each found along its ray of the view; both row by row from the top left.
-pub(crate) fn draw(
-    scene: &Scene,
-    view: &View,
-    rays: &[Ray],
-    hits: &[Hit],
+/// Shades a scene's hits, all of a picture's or some rows of them.
+pub(crate) struct Shader<'a> {
+    view: &'a View,
     picture: CpuPicture,
-) -> Shaded {
-    let camera = view.camera();
-    let range = (picture == CpuPicture::Depth).then(|| ValueRange::of_distances(hits));
-    let scale = range.unwrap_or_default();
-    let colors = SurfaceColors::new(scene);
-    let color = |ray: &Ray, hit: &Hit| colors.at(ray.origin + hit.t * ray.direction, &[]);
-    let surface = |ray: &Ray, hit: &Hit| match (picture, hit.verdict) {
-        (CpuPicture::Color, _) => color(ray, hit),
-        (_, Verdict::Inside) => 0.25 * color(ray, hit),
-        _ => phong(camera, color(ray, hit), hit.normal, -ray.direction),
-    };
-    let light = |row, ray: &Ray, hit: &Hit| match hit.verdict {
-        Verdict::Miss => background(row, view.height()),
-        Verdict::Hit | Verdict::Inside => surface(ray, hit),
-        Verdict::Undecided => ALARM,
-    };
-    let pixel = |(index, (ray, hit)): (usize, (&Ray, &Hit))| match picture {
-        CpuPicture::Phong | CpuPicture::Color => {
-            Color::from_linear(light(index as u32 / view.width(), ray, hit))
+    colors: SurfaceColors<'a>,
+}
+
+impl<'a> Shader<'a> {
+    pub(crate) fn new(scene: &'a Scene, view: &'a View, picture: CpuPicture) -> Self {
+        Self { view, picture, colors: SurfaceColors::new(scene) }
+    }
+
+    /// Whether pixels depend on the hits of the whole picture.
+    pub(crate) fn needs_range(&self) -> bool {
+        self.picture == CpuPicture::Depth
+    }
+
+    /// The pixels of hits from the first pixel of a row on, each found along its ray of the view; `range`
+    /// is that of the picture's distances, which [`CpuPicture::Depth`] alone needs.
+    pub(crate) fn pixels(
+        &self,
+        row: u32,
+        rays: &[Ray],
+        hits: &[Hit],
+        range: ValueRange,
+    ) -> Vec<Color> {
+        let (width, height) = (self.view.width() as usize, self.view.height());
+        let camera = self.view.camera();
+        let pixel = |(index, (ray, hit)): (usize, (&Ray, &Hit))| match self.picture {
+            CpuPicture::Phong | CpuPicture::Color => {
+                let row = row + (index / width) as u32;
+                Color::from_linear(self.light(background(row, height), ray, hit))
+            }
+            CpuPicture::Normal => stored(normal(camera, hit)),
+            CpuPicture::Depth => stored(grey(hit, range)),
+        };
+        rays.par_iter().zip(hits).enumerate().map(pixel).collect()
+    }
+
+    fn light(&self, background: Vec3, ray: &Ray, hit: &Hit) -> Vec3 {
+        let color = || self.colors.at(ray.origin + hit.t * ray.direction, &[]);
+        match (self.picture, hit.verdict) {
+            (_, Verdict::Miss) => background,
+            (_, Verdict::Undecided) => ALARM,
+            (CpuPicture::Color, _) => color(),
+            (_, Verdict::Inside) => 0.25 * color(),
+            _ => phong(self.view.camera(), color(), hit.normal, -ray.direction),
         }
-        CpuPicture::Normal => stored(normal(camera, hit)),
-        CpuPicture::Depth => stored(grey(hit, scale)),
-    };
-    let pixels: Vec<Color> = rays.par_iter().zip(hits).enumerate().map(pixel).collect();
-    Shaded { image: Image::new(view.width(), view.height(), &pixels), range }
+    }
 }
 
 /// Phong's model with a warm key light over the left shoulder, a cool fill light from the right, and
@@ -130,8 +146,8 @@ fn stored(channels: Vec3) -> Color {
 mod tests {
     use bench_scenes::{Overrides, load};
     use fbvh::Options;
-    use metaball_core::WorkKind;
     use metaball_core::gpu::{self, Gpu, IsoRenderer, Shading, Targets};
+    use metaball_core::{Image, WorkKind};
 
     use super::*;
 
@@ -156,9 +172,11 @@ mod tests {
                 let wanted =
                     Shading::new(&gpu).draw(&targets, &view, scene, picture).expect("shaded");
                 let on_cpu = CpuPicture::of(picture).expect("needs no adapter");
-                let found = draw(scene, &view, &rays, &hits, on_cpu);
-                assert_eq!(found.range, wanted.range);
-                let bytes = found.image.rgba.iter().zip(&wanted.image.rgba);
+                let shader = Shader::new(scene, &view, on_cpu);
+                let range = ValueRange::of_distances(&hits);
+                assert_eq!(shader.needs_range().then_some(range), wanted.range);
+                let found = Image::new(64, 48, &shader.pixels(0, &rays, &hits, range));
+                let bytes = found.rgba.iter().zip(&wanted.image.rgba);
                 let worst = bytes.map(|(found, wanted)| found.abs_diff(*wanted)).max();
                 assert!(worst <= Some(steps), "{name}, {picture:?}: {worst:?}");
             }

@@ -65,7 +65,7 @@ pub struct HitsFile(Encoder);
 
 #[derive(Debug)]
 enum Encoder {
-    Exr(ExrHits),
+    Exr(Box<ExrHits>),
     Npy(NpyHits),
 }
 
@@ -76,7 +76,7 @@ impl HitsFile {
     /// When the ending is another, or the file cannot be made.
     pub fn create(path: &Path, width: u32, height: u32) -> Result<Self, PictureFileError> {
         Ok(Self(match Format::of(path)? {
-            Format::Exr => Encoder::Exr(ExrHits::create(path, (width, height))?),
+            Format::Exr => Encoder::Exr(ExrHits::create(path, (width, height))?.into()),
             Format::Npy => Encoder::Npy(NpyHits::create(path, (width, height))?),
         }))
     }

@@ -120,3 +120,11 @@ pub enum RenderError {
         text: String,
     },
 }
+
+impl RenderError {
+    /// Whether the picture or the scene does not fit the adapter: a smaller one may, and another adapter
+    /// may draw this one.
+    pub fn is_too_large(&self) -> bool {
+        matches!(self, Self::TooLarge { .. } | Self::PictureSize { .. } | Self::OutOfMemory { .. })
+    }
+}

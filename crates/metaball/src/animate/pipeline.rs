@@ -13,6 +13,7 @@
 //! Two renderers take turns: one draws what it was built for while the other builds. With one alone
 //! the same threads work in turn, which is what the pipeline is compared with.
 
+use std::ops::ControlFlow;
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -25,6 +26,7 @@ use picture_files::{encode_described_png, write_atomically};
 use super::report::{FrameOutcome, FrameReport, FrameTimes, milliseconds};
 use crate::draw::on_cpu;
 use crate::light::Lighting;
+use crate::summary::Summary;
 use crate::{DrawOptions, Error};
 
 /// What all frames of a run have in common.
@@ -157,7 +159,8 @@ impl Job<'_> {
         let (Some(gpu), Some(renderer)) = (self.gpu, renderer) else {
             let start = Instant::now();
             let drawn = on_cpu(self.options, scene, self.view)?;
-            let (build_ms, draw_ms) = (milliseconds(drawn.build), milliseconds(drawn.frame));
+            let Summary { build, tally, .. } = drawn.summary;
+            let (build_ms, draw_ms) = (milliseconds(build), milliseconds(tally.frame));
             let shade_ms = milliseconds(start.elapsed()) - build_ms - draw_ms;
             return Ok((drawn.image, FrameTimes { build_ms, draw_ms, shade_ms, ..none }));
         };
@@ -173,7 +176,8 @@ impl Job<'_> {
         let image = match self.lighting {
             Some(lighting) => {
                 let hits = targets.read_hits(gpu)?;
-                lighting.draw(gpu, renderer.as_mut(), scene, self.view, &hits, |_, _| ())?.0
+                let all = |_| ControlFlow::Continue(());
+                lighting.draw(gpu, renderer.as_mut(), scene, self.view, &hits, all)?.image
             }
             None => Shading::new(gpu).draw(targets, self.view, scene, self.options.picture)?.image,
         };

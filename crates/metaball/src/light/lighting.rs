@@ -1,11 +1,15 @@
 //! Pictures in the light that was asked for.
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
+use metaball_core::gpu::{Gpu, IsoRenderer};
 use metaball_core::{Hit, Image, Scene, View};
 use metaball_light::gpu::PathTracer;
 use metaball_light::{Effects, Film};
+
+use crate::Error;
+use crate::summary::Progress;
 
 /// Standard deviation of the depth cue's Gaussian, in parts of the picture's height.
 const DEPTH_CUE_WIDTH: f32 = 0.02;
@@ -20,22 +24,20 @@ pub(crate) struct Lighting {
     pub(super) stops: f32,
 }
 
-/// A picture's light, and what it took.
-#[derive(Debug, Clone)]
-pub struct Lit {
-    /// Linear light.
-    pub film: Film,
-    /// Paths a pixel.
-    pub samples: u32,
-    /// Wall time of all samples.
-    pub time: Duration,
+/// A picture in its light, and what it took.
+#[derive(Debug)]
+pub(crate) struct Lit {
+    pub(crate) image: Image,
+    pub(crate) film: Film,
+    pub(crate) samples: u32,
+    pub(crate) time: Duration,
     /// Rays of the last sample that the method could not answer.
-    pub undecided: u64,
+    pub(crate) undecided: u64,
 }
 
 impl Lighting {
-    /// Draws a picture. `renderer` has built the scene; `hits` are the view's first hits; `after_sample`
-    /// gets how many samples are done, and of how many.
+    /// Draws a picture. `renderer` has built the scene; `hits` are the view's first hits; after each
+    /// sample `progress` gets how many are done, and may break off.
     pub(crate) fn draw(
         &self,
         gpu: &Gpu,
@@ -43,15 +45,17 @@ impl Lighting {
         scene: &Scene,
         view: &View,
         hits: &[Hit],
-        mut after_sample: impl FnMut(u32, u32),
-    ) -> Result<(Image, Lit), RenderError> {
+        mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Lit, Error> {
         let samples = self.samples;
         let mut tracer =
             PathTracer::new(gpu, scene, view, self.effects.clone(), samples, self.seed)?;
         let start = Instant::now();
-        for sample in 1..=samples {
+        for done in 1..=samples {
             tracer.add_sample(renderer)?;
-            after_sample(sample, samples);
+            if progress(Progress { done, of: samples, resumed: 0 }).is_break() {
+                return Err(Error::Interrupted);
+            }
         }
         let time = start.elapsed();
         let mut film = tracer.film()?;
@@ -59,6 +63,6 @@ impl Lighting {
             film.cue_depth(hits, DEPTH_CUE_WIDTH, strength);
         }
         let image = film.develop(self.stops);
-        Ok((image, Lit { film, samples, time, undecided: tracer.undecided()? }))
+        Ok(Lit { image, film, samples, time, undecided: tracer.undecided()? })
     }
 }
