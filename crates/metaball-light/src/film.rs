@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use metaball_core::{Color, Image};
+use rayon::prelude::*;
 
 /// Linear light of each pixel, row by row from the top left.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,14 +16,17 @@ pub struct Film {
 }
 
 impl Film {
-    /// The picture with sRGB's transfer function (IEC 61966-2-1). `exposure` is in stops: each doubles the
-    /// light. What is brighter than white is white.
+    /// The picture: see [`develop`].
     pub fn develop(&self, exposure: f32) -> Image {
-        let gain = libm::exp2f(exposure);
-        let pixel = |light: &Vec3| Color::from_linear(gain * *light);
-        let pixels: Vec<Color> = self.light.iter().map(pixel).collect();
-        Image::new(self.width, self.height, &pixels)
+        Image::new(self.width, self.height, &develop(&self.light, exposure))
     }
+}
+
+/// Linear light with sRGB's transfer function (IEC 61966-2-1). `exposure` is in stops: each doubles the
+/// light. What is brighter than white is white.
+pub fn develop(light: &[Vec3], exposure: f32) -> Vec<Color> {
+    let gain = libm::exp2f(exposure);
+    light.par_iter().map(|light| Color::from_linear(gain * *light)).collect()
 }
 
 #[cfg(test)]

@@ -75,7 +75,8 @@ pub mod gpu;
 mod panorama;
 mod path;
 
+pub use depth_cue::DepthCue;
 pub use effects::{Effects, Environment, Floor, Lamp, Occlusion, Surface};
 pub use error::UnansweredError;
-pub use film::Film;
+pub use film::{Film, develop};
 pub use panorama::{Panorama, PanoramaError};

@@ -223,15 +223,11 @@ mod tests {
         same_frames_however_made(&Backend::Adapter(AdapterChoice::Environment));
     }
 
-    #[test]
-    fn light_is_the_same_however_frames_are_made() {
-        if Gpu::for_test().is_none() {
-            return;
-        }
+    fn same_light_however_made(backend: &Backend) {
         let tornado = moving("tornado:100");
         let lit = |light: LightOptions, in_turn| {
             let folder = folder();
-            let mut options = options(Backend::default(), folder.path());
+            let mut options = options(backend.clone(), folder.path());
             options.draw.light = light;
             run(&tornado, &AnimateOptions { frames: Some(3..5), in_turn, ..options });
             fs::read(folder.path().join("f-04.png")).expect("drawn")
@@ -241,6 +237,19 @@ mod tests {
         let picture = lit(shadows.clone(), false);
         assert_eq!(lit(shadows, true), picture);
         assert_ne!(lit(plain, false), picture, "there is no shadow");
+    }
+
+    #[test]
+    fn the_cpu_lights_the_same_frames_however_made() {
+        same_light_however_made(&Backend::Cpu);
+    }
+
+    #[test]
+    fn an_adapter_lights_the_same_frames_however_made() {
+        if Gpu::for_test().is_none() {
+            return;
+        }
+        same_light_however_made(&Backend::Adapter(AdapterChoice::Environment));
     }
 
     #[test]

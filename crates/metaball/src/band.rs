@@ -32,6 +32,19 @@ pub(crate) struct Planes {
 }
 
 impl Band {
+    /// Drops the other planes.
+    pub(crate) fn keep(&mut self, planes: Planes) {
+        if !planes.pixels {
+            self.pixels = Vec::new();
+        }
+        if !planes.hits {
+            self.hits = Vec::new();
+        }
+        if !planes.light {
+            self.light = Vec::new();
+        }
+    }
+
     /// Adds the rows below.
     pub(crate) fn append(&mut self, mut below: Self) {
         self.rows.end = below.rows.end;
@@ -41,10 +54,6 @@ impl Band {
         self.tally += below.tally;
     }
 }
-
-/// Pixels of a band: many enough that each thread has its share, and few enough that all that is held of
-/// a band, 80 bytes a pixel, is little.
-pub(crate) const BAND_PIXELS: u32 = 1 << 20;
 
 /// The bands that a view is drawn in, from a row on: their rows. Each has about so many pixels.
 pub(crate) fn bands(

@@ -4,9 +4,12 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use fbvh::{Tracer, Tree};
-use metaball_core::{Scene, ValueRange, View};
+use metaball_core::{Hit, Scene, ValueRange, View};
+use metaball_light::DepthCue;
+use metaball_light::cpu::PathTracer;
 
 use crate::band::{Band, Planes};
+use crate::light::Lighting;
 use crate::shade::{CpuPicture, Shader};
 use crate::summary::Tally;
 use crate::{DrawOptions, Error, Method};
@@ -14,51 +17,80 @@ use crate::{DrawOptions, Error, Method};
 /// A method's tree, with the time that it took.
 #[derive(Debug)]
 pub(crate) struct Built {
-    pub(crate) tree: Tree,
+    tree: Tree,
     pub(crate) time: Duration,
 }
 
-/// Builds the method's tree.
-pub(crate) fn build(method: &Method, scene: &Scene) -> Result<Built, Error> {
-    let options = method.tree().ok_or_else(|| Error::NeedsAdapter {
-        what: format!("method {}", method.name()),
-        instead: "the CPU traces bvh, fbvh, fbvh-certified".to_owned(),
-    })?;
-    let start = Instant::now();
-    let tree = Tree::build(scene, &options)
-        .map_err(|source| Error::Build { method: method.name().to_owned(), source })?;
-    Ok(Built { tree, time: start.elapsed() })
+impl Built {
+    /// Builds the method's tree.
+    pub(crate) fn new(method: &Method, scene: &Scene) -> Result<Self, Error> {
+        let options = method.tree().ok_or_else(|| Error::NeedsAdapter {
+            what: format!("method {}", method.name()),
+            instead: "the CPU traces bvh, fbvh, fbvh-certified".to_owned(),
+        })?;
+        let start = Instant::now();
+        let tree = Tree::build(scene, &options)
+            .map_err(|source| Error::Build { method: method.name().to_owned(), source })?;
+        Ok(Self { tree, time: start.elapsed() })
+    }
+
+    /// What traces the scene that it was built for.
+    pub(crate) fn tracer<'a>(&'a self, scene: &'a Scene) -> Tracer<'a, Scene> {
+        Tracer::new(&self.tree, scene)
+    }
 }
 
 /// Draws bands of a view, in any order: each is the same, bit for bit, as in the whole picture.
 pub(crate) struct Painter<'a> {
     view: &'a View,
-    tracer: Tracer<'a, Scene>,
-    shader: Shader<'a>,
+    tracer: &'a Tracer<'a, Scene>,
+    look: Look<'a>,
+}
+
+/// How a picture is shaded.
+enum Look<'a> {
+    Shared(Shader<'a>),
+    Lit(&'a Lighting, PathTracer<'a, Tracer<'a, Scene>>),
 }
 
 impl<'a> Painter<'a> {
+    /// Of a view in this light, if there is any, else of what the options say.
     pub(crate) fn new(
-        built: &'a Built,
+        tracer: &'a Tracer<'a, Scene>,
         scene: &'a Scene,
         view: &'a View,
         options: &DrawOptions,
+        lighting: Option<&'a Lighting>,
     ) -> Result<Self, Error> {
-        if options.light.is_asked() {
-            return Err(Error::NeedsAdapter {
-                what: "light".to_owned(),
-                instead: CpuPicture::CHOICE.to_owned(),
-            });
-        }
-        let picture = CpuPicture::of(options.picture)?;
-        let tracer = Tracer::new(&built.tree, scene);
-        Ok(Self { view, tracer, shader: Shader::new(scene, view, picture) })
+        let look = match lighting {
+            None => Look::Shared(Shader::new(scene, view, CpuPicture::of(options.picture)?)),
+            Some(lighting) => {
+                let paths = lighting.on_cpu(tracer, scene, view).ok_or_else(|| Error::Option {
+                    option: "method",
+                    needed: "fbvh-certified, which follows rays inside the solid".to_owned(),
+                    found: options.method.name().to_owned(),
+                })?;
+                Look::Lit(lighting, paths)
+            }
+        };
+        Ok(Self { view, tracer, look })
     }
 
-    /// Whether pixels depend on hits of the whole picture: then no band has any before it is
-    /// [finished](Finisher).
-    pub(crate) fn waits(&self) -> bool {
-        self.shader.needs_range()
+    /// Pixels of a band. Those of light take long: they are few, so that progress is seen and kept.
+    pub(crate) fn band_pixels(&self) -> u32 {
+        match self.look {
+            Look::Shared(_) => 1 << 20,
+            Look::Lit(..) => 1 << 16,
+        }
+    }
+
+    /// What a band has to keep for a picture, and for files of hits and of light where they are wanted.
+    pub(crate) fn planes(&self, hits: bool, light: bool) -> Planes {
+        let (waits, lit) = match &self.look {
+            Look::Shared(shader) => (shader.needs_range(), false),
+            Look::Lit(lighting, _) => (lighting.cues_depth(), true),
+        };
+        Planes { pixels: !waits, hits: hits || waits, light: lit && (light || waits) }
     }
 
     /// Draws some rows, from a multiple of sixteen on.
@@ -66,30 +98,77 @@ impl<'a> Painter<'a> {
         let start = Instant::now();
         let rays = self.view.rays_of_rows(rows.clone());
         let hits = self.tracer.picture_hits(&rays, self.view.width() as usize);
-        let tally = Tally { frame: start.elapsed(), ..Tally::of(&hits) };
-        let shade = || self.shader.pixels(rows.start, &rays, &hits, ValueRange::default());
-        let pixels = planes.pixels.then(shade).unwrap_or_default();
-        let hits = if planes.hits { hits } else { Vec::new() };
-        Band { rows, pixels, hits, light: Vec::new(), tally }
+        let mut tally = Tally { frame: start.elapsed(), ..Tally::of(&hits) };
+        let (mut pixels, mut light) = (Vec::new(), Vec::new());
+        match &self.look {
+            Look::Shared(shader) if planes.pixels => {
+                pixels = shader.pixels(rows.start, &rays, &hits, ValueRange::default());
+            }
+            Look::Shared(_) => {}
+            Look::Lit(lighting, paths) => {
+                let start = Instant::now();
+                let lit = paths.rows(rows.clone());
+                (tally.light, tally.undecided_light) = (start.elapsed(), lit.rays.undecided);
+                if planes.pixels {
+                    pixels = lighting.develop(&lit.light);
+                }
+                light = lit.light;
+            }
+        }
+        let mut band = Band { rows, pixels, hits, light, tally };
+        band.keep(planes);
+        band
+    }
+
+    /// Makes the pixels of bands without any, of a picture with these distances.
+    pub(crate) fn finisher(&self, range: ValueRange) -> Finisher<'_, 'a> {
+        let cue = match &self.look {
+            Look::Shared(_) => None,
+            Look::Lit(lighting, _) => lighting.depth_cue(self.view, range),
+        };
+        Finisher { painter: self, range, cue }
     }
 }
 
-/// Makes the pixels of a picture that waits for all of its hits.
+/// Makes pixels that depend on the whole picture, from its top to its bottom.
 pub(crate) struct Finisher<'p, 'a> {
     painter: &'p Painter<'a>,
     range: ValueRange,
+    cue: Option<DepthCue>,
 }
 
-impl<'p, 'a> Finisher<'p, 'a> {
-    /// Of a picture with these distances.
-    pub(crate) fn new(painter: &'p Painter<'a>, range: ValueRange) -> Self {
-        Self { painter, range }
+impl Finisher<'_, '_> {
+    /// What black and white stand for, if anything.
+    pub(crate) fn scale(&self) -> Option<ValueRange> {
+        matches!(self.painter.look, Look::Shared(_)).then_some(self.range)
     }
 
-    /// Makes the pixels of a band that has hits.
-    pub(crate) fn finish(&self, band: &mut Band) {
-        let rays = self.painter.view.rays_of_rows(band.rows.clone());
-        band.pixels = self.painter.shader.pixels(band.rows.start, &rays, &band.hits, self.range);
+    /// Whether it has to see more rows before it finishes those up to `end`.
+    pub(crate) fn has_to_see(&self, end: u32) -> bool {
+        self.cue.as_ref().is_some_and(|cue| cue.seen() < cue.needed(end))
+    }
+
+    /// Sees the next rows.
+    pub(crate) fn see(&mut self, hits: &[Hit]) {
+        if let Some(cue) = &mut self.cue {
+            cue.see(hits);
+        }
+    }
+
+    /// Makes the pixels of the next rows.
+    pub(crate) fn finish(&mut self, band: &mut Band) {
+        band.pixels = match &self.painter.look {
+            Look::Shared(shader) => {
+                let rays = self.painter.view.rays_of_rows(band.rows.clone());
+                shader.pixels(band.rows.start, &rays, &band.hits, self.range)
+            }
+            Look::Lit(lighting, _) => {
+                if let Some(cue) = &mut self.cue {
+                    cue.cue(band.rows.clone(), &band.hits, &mut band.light);
+                }
+                lighting.develop(&band.light)
+            }
+        };
     }
 }
 
@@ -104,7 +183,7 @@ mod tests {
     use super::*;
     use crate::band::bands;
 
-    const PLANES: Planes = Planes { pixels: true, hits: true, light: false };
+    const PLANES: Planes = Planes { pixels: true, hits: true, light: true };
 
     fn bench(name: &str) -> BenchScene {
         load(name, &Overrides::default()).expect("known")
@@ -112,13 +191,16 @@ mod tests {
 
     /// A view drawn in bands of at least so many pixels.
     fn drawn(scene: &Scene, view: &View, options: &DrawOptions, pixels: u32) -> Band {
-        let built = build(&options.method, scene).expect("built");
-        let painter = Painter::new(&built, scene, view, options).expect("a painter");
+        let built = Built::new(&options.method, scene).expect("built");
+        let tracer = built.tracer(scene);
+        let lighting = options.lighting(view, scene).expect("light");
+        let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref());
+        let painter = painter.expect("a painter");
         let mut whole = Band::default();
         for rows in bands(view, 0, pixels) {
             whole.append(painter.band(rows, PLANES));
         }
-        whole.tally.frame = Duration::ZERO;
+        (whole.tally.frame, whole.tally.light) = (Duration::ZERO, Duration::ZERO);
         whole
     }
 
@@ -154,6 +236,26 @@ mod tests {
     }
 
     #[test]
+    fn light_of_bands_is_that_of_the_whole_picture() {
+        for name in ["colors-100", "molecule"] {
+            let bench = bench(name);
+            let view = View::new(bench.camera, 61, 83).expect("a size");
+            let light = crate::LightOptions {
+                shadows: true,
+                ambient_occlusion: Some(2),
+                reflections: Some(1),
+                samples: Some(2),
+                ..crate::LightOptions::default()
+            };
+            let options = DrawOptions { light, ..DrawOptions::default() };
+            let band = |pixels| drawn(&bench.scene, &view, &options, pixels);
+            let whole = band(u32::MAX);
+            assert_eq!(whole.light.len(), view.pixels());
+            assert!(band(1) == whole && band(61 * 30) == whole, "{name}");
+        }
+    }
+
+    #[test]
     fn a_solid_scene_ends_rays() {
         let bench = bench("filling");
         let view = View::new(bench.camera, 2, 1).expect("a size");
@@ -169,7 +271,7 @@ mod tests {
     fn methods_without_a_tree_are_refused_by_name() {
         let bench = bench("empty");
         let kanamori = harness::methods::find("kanamori").expect("listed");
-        let error = build(&Method::Listed(kanamori.into()), &bench.scene);
+        let error = Built::new(&Method::Listed(kanamori.into()), &bench.scene);
         let error = error.expect_err("no tree").to_string();
         assert!(
             error.contains("kanamori") && error.ends_with("bvh, fbvh, fbvh-certified"),

@@ -9,8 +9,9 @@ use metaball_core::{Camera, Hit, Image, Picture, Scene, ValueRange, View};
 use metaball_light::Film;
 use picture_files::{write_hits, write_light, write_png};
 
-use crate::band::{BAND_PIXELS, Band, Planes, bands};
-use crate::cpu::{self, Finisher, Painter};
+use crate::band::{Band, bands};
+use crate::cpu::{Built, Painter};
+use crate::light::Lighting;
 use crate::shade::CpuPicture;
 use crate::summary::{Progress, Summary, Tally};
 use crate::{Backend, Error, LightOptions, Method, Viewpoint};
@@ -114,7 +115,8 @@ pub fn draw(scene: &Scene, camera: &Camera, options: &DrawOptions) -> Result<Dra
     match on_adapter(gpu.as_ref(), options, scene, &view, |_| ControlFlow::Continue(()))? {
         Attempt::Drawn(drawing) => Ok(*drawing),
         Attempt::Left { computed_by } => {
-            let drawing = on_cpu(options, scene, &view)?;
+            let lighting = options.lighting(&view, scene)?;
+            let drawing = on_cpu(options, lighting.as_ref(), scene, &view)?;
             Ok(Drawing { summary: Summary { computed_by, ..drawing.summary }, ..drawing })
         }
     }
@@ -142,7 +144,11 @@ pub(crate) fn on_adapter(
     };
     match drawn_by(gpu, options, scene, view, progress) {
         Ok(drawing) => Ok(Attempt::Drawn(Box::new(drawing))),
-        Err(Error::Render(refusal)) if refusal.is_too_large() => options.left_to_cpu(refusal),
+        Err(Error::Render(refusal)) if refusal.is_too_large() && options.is_for_cpu() => {
+            let computed_by = format!("the CPU, being too large for the adapter: {refusal}");
+            Ok(Attempt::Left { computed_by })
+        }
+        Err(Error::Render(refusal)) => Err(options.refused(refusal)),
         Err(error) => Err(error),
     }
 }
@@ -155,7 +161,7 @@ fn drawn_by(
     progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Drawing, Error> {
     let targets = options.targets(gpu, scene)?;
-    let Built { mut renderer, build, account } = built(gpu, options, scene, view)?;
+    let Prepared { mut renderer, build, account } = prepared(gpu, options, scene, view)?;
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?.wall;
     let hits = targets.read_hits(gpu)?;
@@ -168,12 +174,11 @@ fn drawn_by(
         computed_by: options.backend.describe(Some(gpu)),
         build,
     };
-    if !options.light.is_asked() {
+    let Some(lighting) = options.lighting(view, scene)? else {
         let shaded = Shading::new(gpu).draw(&targets, view, scene, options.picture)?;
         summary.range = shaded.range;
         return Ok(Drawing { image: shaded.image, hits, film: None, summary });
-    }
-    let lighting = options.light.lighting(view.camera(), scene)?;
+    };
     let lit = lighting.draw(gpu, renderer.as_mut(), scene, view, &hits, progress)?;
     summary.samples = Some(lit.samples);
     (summary.tally.light, summary.tally.undecided_light) = (lit.time, lit.undecided);
@@ -181,20 +186,25 @@ fn drawn_by(
 }
 
 /// A renderer that has its scene.
-struct Built {
+struct Prepared {
     renderer: Box<dyn IsoRenderer>,
     build: Duration,
     account: Vec<(&'static str, String)>,
 }
 
-fn built(gpu: &Gpu, options: &DrawOptions, scene: &Scene, view: &View) -> Result<Built, Error> {
+fn prepared(
+    gpu: &Gpu,
+    options: &DrawOptions,
+    scene: &Scene,
+    view: &View,
+) -> Result<Prepared, Error> {
     #[cfg(feature = "harness")]
     if let Method::Auto(choosing) = &options.method {
         return chosen(gpu, options, choosing, scene, view);
     }
     let mut renderer = options.renderer()?;
     let build = renderer.build(gpu, scene)?.structure;
-    Ok(Built { renderer, build, account: options.method.account() })
+    Ok(Prepared { renderer, build, account: options.method.account() })
 }
 
 #[cfg(feature = "harness")]
@@ -204,7 +214,7 @@ fn chosen(
     choosing: &crate::Choosing,
     scene: &Scene,
     view: &View,
-) -> Result<Built, Error> {
+) -> Result<Prepared, Error> {
     let mut candidates = harness::configuration::sweeps::candidates();
     candidates.retain(|configuration| {
         options.light.is_given_by_tree(configuration.technique.tree().map(|options| options.kind()))
@@ -214,33 +224,47 @@ fn chosen(
         harness::auto::Auto::new(candidates, view.clone(), choosing.max_error, cache, counts);
     let build = auto.build(gpu, scene)?.structure;
     let account = auto.account();
-    Ok(Built { renderer: Box::new(auto), build, account })
+    Ok(Prepared { renderer: Box::new(auto), build, account })
 }
 
-/// Traces and shades without an adapter.
-pub(crate) fn on_cpu(options: &DrawOptions, scene: &Scene, view: &View) -> Result<Drawing, Error> {
-    let built = cpu::build(&options.method, scene)?;
-    let painter = Painter::new(&built, scene, view, options)?;
-    let planes = Planes { pixels: !painter.waits(), hits: true, light: false };
+/// Draws without an adapter, in this light, if there is any.
+pub(crate) fn on_cpu(
+    options: &DrawOptions,
+    lighting: Option<&Lighting>,
+    scene: &Scene,
+    view: &View,
+) -> Result<Drawing, Error> {
+    let built = Built::new(&options.method, scene)?;
+    let tracer = built.tracer(scene);
+    let painter = Painter::new(&tracer, scene, view, options, lighting)?;
+    let planes = painter.planes(true, true);
     let mut whole = Band::default();
-    for rows in bands(view, 0, BAND_PIXELS) {
+    for rows in bands(view, 0, painter.band_pixels()) {
         whole.append(painter.band(rows, planes));
     }
-    let range = painter.waits().then(|| ValueRange::of_distances(&whole.hits));
-    if let Some(range) = range {
-        Finisher::new(&painter, range).finish(&mut whole);
+    let mut range = None;
+    if !planes.pixels {
+        let mut finisher = painter.finisher(ValueRange::of_distances(&whole.hits));
+        finisher.see(&whole.hits);
+        finisher.finish(&mut whole);
+        range = finisher.scale();
     }
-    let Band { pixels, hits, tally, .. } = whole;
-    let image = Image::new(view.width(), view.height(), &pixels);
+    let Band { pixels, hits, light, tally, .. } = whole;
+    let (width, height) = (view.width(), view.height());
     let summary = Summary {
         tally,
         range,
-        samples: None,
+        samples: lighting.map(Lighting::samples),
         account: options.method.account(),
         computed_by: options.backend.describe(None),
         build: built.time,
     };
-    Ok(Drawing { image, hits, film: None, summary })
+    Ok(Drawing {
+        image: Image::new(width, height, &pixels),
+        hits,
+        film: lighting.map(|_| Film { width, height, light }),
+        summary,
+    })
 }
 
 impl DrawOptions {
@@ -251,18 +275,29 @@ impl DrawOptions {
         Ok(View::new(camera, width, height)?)
     }
 
-    /// Leaves a picture that does not fit the adapter to the CPU, if the CPU can draw it.
-    fn left_to_cpu(&self, refusal: RenderError) -> Result<Attempt, Error> {
-        let shades = !self.light.is_asked() && CpuPicture::of(self.picture).is_ok();
+    /// The light that is asked for, if any is.
+    pub(crate) fn lighting(&self, view: &View, scene: &Scene) -> Result<Option<Lighting>, Error> {
+        let asked = self.light.is_asked();
+        asked.then(|| self.light.lighting(view.camera(), scene)).transpose()
+    }
+
+    /// Whether the CPU draws such pictures too.
+    fn is_for_cpu(&self) -> bool {
+        let shades = self.light.is_asked() || CpuPicture::of(self.picture).is_ok();
+        shades && self.method.tree().is_some()
+    }
+
+    /// What an adapter refused, with what there is instead where it is too large.
+    pub(crate) fn refused(&self, refusal: RenderError) -> Error {
+        if !refusal.is_too_large() {
+            return refusal.into();
+        }
         let instead = match self.method.tree() {
-            Some(_) if shades => {
-                let computed_by = format!("the CPU, since the picture is too large: {refusal}");
-                return Ok(Attempt::Left { computed_by });
-            }
+            Some(_) if self.is_for_cpu() => "the CPU draws any size",
             Some(_) => "a smaller size may fit",
             None => "a smaller size may fit; the CPU draws any with bvh, fbvh or fbvh-certified",
         };
-        Err(Error::TooLarge { refusal, instead })
+        Error::TooLarge { refusal, instead }
     }
 
     /// What the frames of such a scene are drawn to.
@@ -312,8 +347,42 @@ mod tests {
         };
         options.picture = Picture::Spheres;
         assert!(refused(&options).contains("graphics adapter"));
-        options.light.shadows = true;
-        assert!(refused(&options).starts_with("light needs a graphics adapter"));
+    }
+
+    /// A row is longer than any adapter dispatches.
+    #[test]
+    fn what_does_not_fit_the_adapter_is_left_to_the_cpu() {
+        if Gpu::for_test().is_none() {
+            return;
+        }
+        let bench = load("two-merging", &Overrides::default()).expect("known");
+        let long = DrawOptions { size: (600_000, 1), ..DrawOptions::default() };
+        let drawing = draw(&bench.scene, &bench.camera, &long).expect("drawn");
+        let reason = drawing.summary.computed_by;
+        assert!(
+            reason.starts_with("the CPU, ") && reason.ends_with("found 600000 × 1"),
+            "{reason}"
+        );
+        let on_cpu = DrawOptions { backend: Backend::Cpu, ..long.clone() };
+        let wanted = draw(&bench.scene, &bench.camera, &on_cpu).expect("drawn");
+        assert!(drawing.image == wanted.image && drawing.hits == wanted.hits);
+
+        let refused = |options: &DrawOptions| {
+            draw(&bench.scene, &bench.camera, options).expect_err("too large").to_string()
+        };
+        let spheres = DrawOptions { picture: Picture::Spheres, ..long.clone() };
+        let error = refused(&spheres);
+        assert!(error.ends_with("found 600000 × 1; a smaller size may fit"), "{error}");
+        #[cfg(feature = "harness")]
+        {
+            let kanamori = harness::methods::find("kanamori").expect("listed");
+            let method = Method::Listed(kanamori.into());
+            let error = refused(&DrawOptions { method, ..long });
+            assert!(
+                error.ends_with("the CPU draws any with bvh, fbvh or fbvh-certified"),
+                "{error}"
+            );
+        }
     }
 
     #[test]

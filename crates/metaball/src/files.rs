@@ -7,8 +7,8 @@ use glam::Vec3;
 use metaball_core::{Camera, Color, Hit, Scene, ValueRange, View};
 use picture_files::{HitsFile, LightFile, PngFile};
 
-use crate::band::{BAND_PIXELS, Planes, bands};
-use crate::cpu::{self, Finisher, Painter};
+use crate::band::{Planes, bands};
+use crate::cpu::{Built, Finisher, Painter};
 use crate::draw::{Attempt, no_light, on_adapter};
 use crate::spool::{Description, Spool};
 use crate::summary::{Progress, Summary, Tally};
@@ -73,7 +73,7 @@ pub fn draw_to_files(
             Attempt::Left { computed_by } => computed_by,
         }
     };
-    let job = Job { scene, view: &view, options, outputs, band_pixels: BAND_PIXELS };
+    let job = Job { scene, view: &view, options, outputs, band_pixels: None };
     Ok(Summary { computed_by, ..job.draw(progress)? })
 }
 
@@ -93,33 +93,31 @@ struct Job<'a> {
     view: &'a View,
     options: &'a DrawOptions,
     outputs: &'a Outputs,
-    band_pixels: u32,
+    /// Pixels of a band; as many as suit the picture when left out.
+    band_pixels: Option<u32>,
 }
 
 impl Job<'_> {
     /// Draws to the spool, and writes the files from it.
     fn draw(&self, progress: impl FnMut(Progress) -> ControlFlow<()>) -> Result<Summary, Error> {
         let Self { scene, view, options, outputs, .. } = *self;
-        let built = cpu::build(&options.method, scene)?;
-        let painter = Painter::new(&built, scene, view, options)?;
-        let waits = painter.waits();
-        let planes = Planes {
-            pixels: !waits,
-            hits: waits || outputs.hits.is_some(),
-            light: outputs.light.is_some(),
-        };
+        let lighting = options.lighting(view, scene)?;
+        let built = Built::new(&options.method, scene)?;
+        let tracer = built.tracer(scene);
+        let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref())?;
+        let planes = painter.planes(outputs.hits.is_some(), outputs.light.is_some());
         let description = Description::new(scene, view, options, planes);
         let path = Spool::path_beside(&outputs.image);
         let mut spool = Spool::open(path, view, planes, &description, outputs.resume)?;
         self.draw_rest(&mut spool, &painter, planes, progress)?;
-        let range = waits.then(|| range_of(&spool)).transpose()?;
-        let finisher = range.map(|range| Finisher::new(&painter, range));
-        let tally = self.write_files(&spool, finisher.as_ref())?;
+        let range = (!planes.pixels).then(|| range_of(&spool)).transpose()?;
+        let mut finisher = range.map(|range| painter.finisher(range));
+        let tally = self.write_files(&spool, finisher.as_mut())?;
         spool.remove()?;
         Ok(Summary {
             tally,
-            range,
-            samples: None,
+            range: finisher.and_then(|finisher| finisher.scale()),
+            samples: lighting.map(|lighting| lighting.samples()),
             account: options.method.account(),
             computed_by: options.backend.describe(None),
             build: built.time,
@@ -140,7 +138,8 @@ impl Job<'_> {
             ControlFlow::Break(()) => Err(Error::Interrupted),
         };
         report(resumed)?;
-        for rows in bands(self.view, resumed, self.band_pixels) {
+        let pixels = self.band_pixels.unwrap_or(painter.band_pixels());
+        for rows in bands(self.view, resumed, pixels) {
             spool.append(&painter.band(rows, planes))?;
             report(spool.rows())?;
         }
@@ -151,13 +150,18 @@ impl Job<'_> {
     fn write_files(
         &self,
         spool: &Spool,
-        finisher: Option<&Finisher<'_, '_>>,
+        mut finisher: Option<&mut Finisher<'_, '_>>,
     ) -> Result<Tally, Error> {
         let mut files = Files::create(self.outputs, self.view)?;
         let mut tally = Tally::default();
+        let mut ahead = spool.bands();
         for band in spool.bands() {
             let mut band = band?;
-            if let Some(finisher) = finisher {
+            if let Some(finisher) = &mut finisher {
+                while finisher.has_to_see(band.rows.end) {
+                    let Some(band) = ahead.next() else { break };
+                    finisher.see(&band?.hits);
+                }
                 finisher.finish(&mut band);
             }
             files.write(&band.pixels, &band.hits, &band.light)?;
@@ -223,7 +227,7 @@ mod tests {
     use metaball_core::Picture;
 
     use super::*;
-    use crate::{Backend, draw};
+    use crate::{Backend, LightOptions, Method, draw};
 
     fn bench(name: &str) -> BenchScene {
         load(name, &Overrides::default()).expect("known")
@@ -233,8 +237,8 @@ mod tests {
         DrawOptions { size: (50, 70), picture, backend: Backend::Cpu, ..DrawOptions::default() }
     }
 
-    fn outputs(folder: &Path, hits: &str) -> Outputs {
-        Outputs { hits: Some(folder.join(hits)), ..Outputs::image(folder.join("image.png")) }
+    fn lit(light: LightOptions) -> DrawOptions {
+        DrawOptions { light, ..options(Picture::Phong) }
     }
 
     /// Draws with five bands, and breaks off when so many rows are there.
@@ -246,51 +250,135 @@ mod tests {
     ) -> Result<Summary, Error> {
         let view = options.view(&bench.scene, &bench.camera)?;
         let scene = &bench.scene;
-        let job = Job { scene, view: &view, options, outputs, band_pixels: 1 };
+        let job = Job { scene, view: &view, options, outputs, band_pixels: Some(1) };
         job.draw(|progress| {
             assert_eq!(progress.of, 70);
             if progress.done >= end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
     }
 
-    fn files(folder: &Path, names: [&str; 2]) -> [Vec<u8>; 2] {
-        names.map(|name| fs::read(folder.join(name)).expect("written"))
+    /// All files in a folder: names and contents.
+    fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+        let entries = fs::read_dir(folder).expect("readable").map(|entry| entry.expect("readable"));
+        let mut files: Vec<_> = entries
+            .map(|entry| (entry.file_name().display().to_string(), entry.path()))
+            .map(|(name, path)| (name, fs::read(path).expect("readable")))
+            .collect();
+        files.sort();
+        files
     }
 
     #[test]
     fn files_are_those_of_the_whole_picture_however_often_interrupted() {
-        for (scene, hits, picture) in [
-            ("colors-100", "hits.exr", Picture::Phong),
-            ("eye-inside-surface", "hits.npy", Picture::Color),
-            ("colors-100", "hits.npy", Picture::Normal),
-            ("strengths-100", "hits.exr", Picture::Depth),
+        let shadows = LightOptions { shadows: true, ..LightOptions::default() };
+        let cued = LightOptions { depth_cue: Some(1.0), samples: Some(2), ..shadows.clone() };
+        for (scene, hits, options) in [
+            ("colors-100", "hits.exr", options(Picture::Phong)),
+            ("eye-inside-surface", "hits.npy", options(Picture::Color)),
+            ("strengths-100", "hits.exr", options(Picture::Depth)),
+            ("colors-100", "hits.npy", lit(shadows)),
+            ("strengths-100", "hits.exr", lit(cued)),
         ] {
-            let (bench, options) = (bench(scene), options(picture));
-            let folder = tempfile::tempdir().expect("a folder");
-            let folder = folder.path();
-            let names = ["image.png", hits];
+            let bench = bench(scene);
             let whole = draw(&bench.scene, &bench.camera, &options).expect("drawn");
-            whole.save_image(folder.join(names[0])).expect("written");
-            whole.save_hits(folder.join(names[1])).expect("written");
-            let wanted = files(folder, names);
-            for name in names {
-                fs::remove_file(folder.join(name)).expect("removed");
+            let folders = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+            let [wanted, found] = folders.each_ref().map(tempfile::TempDir::path);
+            whole.save_image(wanted.join("image.png")).expect("written");
+            whole.save_hits(wanted.join(hits)).expect("written");
+            let mut outputs = Outputs::image(found.join("image.png"));
+            outputs.hits = Some(found.join(hits));
+            if options.light.is_asked() {
+                whole.save_light(wanted.join("light.exr")).expect("written");
+                outputs.light = Some(found.join("light.exr"));
             }
 
-            let mut outputs = outputs(folder, hits);
             for end in [0, 16, 32, 32, 64, 70] {
                 let stopped = draw_until(&bench, &options, &outputs, end);
                 assert!(matches!(stopped, Err(Error::Interrupted)), "{stopped:?}");
-                let there: Vec<_> = fs::read_dir(folder).expect("readable").collect();
-                assert_eq!(there.len(), 1, "only the spool: {there:?}");
+                let there: Vec<_> = files(found).into_iter().map(|(name, _)| name).collect();
+                assert_eq!(there, ["image.png.spool"]);
                 outputs.resume = true;
             }
             let summary = draw_until(&bench, &options, &outputs, 71).expect("drawn");
-            assert!(files(folder, names) == wanted, "{scene}, {picture:?}");
-            assert_eq!(fs::read_dir(folder).expect("readable").count(), 2);
-            let counts = |tally| Tally { frame: Duration::ZERO, ..tally };
-            assert_eq!(counts(summary.tally), counts(whole.summary.tally));
+            assert!(files(found) == files(wanted), "{scene}, {options:?}");
+            let timeless = |tally| Tally { frame: Duration::ZERO, light: Duration::ZERO, ..tally };
+            assert_eq!(timeless(summary.tally), timeless(whole.summary.tally));
             assert_eq!(summary.range, whole.summary.range);
         }
+    }
+
+    /// A picture alone keeps nothing else, and is the same.
+    #[test]
+    fn a_picture_alone_is_the_same() {
+        let cued = LightOptions { depth_cue: Some(1.0), ..LightOptions::default() };
+        for options in [options(Picture::Normal), options(Picture::Depth), lit(cued)] {
+            let bench = bench("colors-100");
+            let folder = tempfile::tempdir().expect("a folder");
+            let [wanted, found] = ["wanted.png", "found.png"].map(|name| folder.path().join(name));
+            let whole = draw(&bench.scene, &bench.camera, &options).expect("drawn");
+            whole.save_image(&wanted).expect("written");
+            let outputs = Outputs::image(&found);
+            let all = |_| ControlFlow::Continue(());
+            draw_to_files(&bench.scene, &bench.camera, &options, &outputs, all).expect("drawn");
+            let [wanted, found] = [wanted, found].map(|path| fs::read(path).expect("written"));
+            assert!(found == wanted, "{options:?}");
+        }
+    }
+
+    /// What was begun is gone on with if it is the same in everything that pixels depend on, and is never
+    /// thrown away unasked.
+    #[test]
+    fn only_the_same_picture_is_resumed() {
+        let bench = bench("colors-100");
+        let folder = tempfile::tempdir().expect("a folder");
+        let outputs = Outputs::image(folder.path().join("image.png"));
+        let resume = Outputs { resume: true, ..outputs.clone() };
+        let plain = options(Picture::Phong);
+        let message = |scene: &BenchScene, options: &DrawOptions, outputs: &Outputs| {
+            draw_until(scene, options, outputs, 0).expect_err("broken off").to_string()
+        };
+        assert_eq!(message(&bench, &plain, &resume), "interrupted", "nothing is there");
+        draw_until(&bench, &plain, &outputs, 32).expect_err("broken off");
+        assert!(message(&bench, &plain, &outputs).contains("32 of 70 rows"));
+        assert_eq!(message(&bench, &plain, &resume), "interrupted");
+
+        let mut eye = plain.clone();
+        eye.viewpoint.fov = Some(20.0);
+        let shadows = LightOptions { shadows: true, ..LightOptions::default() };
+        let hits = Outputs { hits: Some(folder.path().join("hits.exr")), ..resume.clone() };
+        let threshold = Overrides { threshold: Some(0.3), ..Overrides::default() };
+        let threshold = load("colors-100", &threshold).expect("known");
+        let fitted = Method::Tree(fbvh::Options::fitted());
+        for (what, refused) in [
+            ("camera", message(&bench, &eye, &resume)),
+            ("picture", message(&bench, &options(Picture::Normal), &resume)),
+            ("method", message(&bench, &DrawOptions { method: fitted, ..plain.clone() }, &resume)),
+            ("light", message(&bench, &lit(shadows), &resume)),
+            ("planes", message(&bench, &plain, &hits)),
+            ("scene", message(&threshold, &plain, &resume)),
+        ] {
+            assert!(refused.contains(&format!("needed the {what} of this picture")), "{refused}");
+        }
+        assert!(message(&bench, &plain, &outputs).contains("32 of 70 rows"), "it is still there");
+        assert_eq!(message(&bench, &eye, &outputs), "interrupted", "another is drawn anew");
+        assert_eq!(message(&bench, &plain, &outputs), "interrupted", "and the first is gone");
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_refused_before_anything_is_drawn() {
+        let bench = bench("colors-100");
+        let folder = tempfile::tempdir().expect("a folder");
+        let outputs = Outputs::image(folder.path().join("image.png"));
+        let refused = |outputs: &Outputs| {
+            let options = options(Picture::Phong);
+            let drawn =
+                draw_to_files(&bench.scene, &bench.camera, &options, outputs, |_| panic!("drawn"));
+            drawn.expect_err("refused").to_string()
+        };
+        let hits = Outputs { hits: Some(folder.path().join("hits.txt")), ..outputs.clone() };
+        assert!(refused(&hits).ends_with("found .txt"));
+        let light = Outputs { light: Some(folder.path().join("light.exr")), ..outputs };
+        assert!(refused(&light).starts_with("light: needed"));
+        assert_eq!(files(folder.path()), []);
     }
 }

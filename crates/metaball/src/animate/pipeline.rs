@@ -111,7 +111,7 @@ impl Job<'_> {
                     Ok(scene) => {
                         let (image, times) = self
                             .picture(&scene, &mut renderer, &mut targets)
-                            .map_err(in_frame(number))?;
+                            .map_err(self.stopped(number))?;
                         if picture_sender.send((number, image)).is_err() {
                             break;
                         }
@@ -143,7 +143,7 @@ impl Job<'_> {
         let scene = self.scene.frame(number);
         let load = start.elapsed();
         if let (Ok(scene), Some(gpu), Some(renderer)) = (&scene, self.gpu, &mut renderer) {
-            renderer.build(gpu, scene).map_err(Error::from).map_err(in_frame(number))?;
+            renderer.build(gpu, scene).map_err(Error::from).map_err(self.stopped(number))?;
         }
         Ok(Ready { number, scene, renderer, load, build: start.elapsed() - load })
     }
@@ -158,7 +158,7 @@ impl Job<'_> {
         let none = FrameTimes::default();
         let (Some(gpu), Some(renderer)) = (self.gpu, renderer) else {
             let start = Instant::now();
-            let drawn = on_cpu(self.options, scene, self.view)?;
+            let drawn = on_cpu(self.options, self.lighting, scene, self.view)?;
             let Summary { build, tally, .. } = drawn.summary;
             let (build_ms, draw_ms) = (milliseconds(build), milliseconds(tally.frame));
             let shade_ms = milliseconds(start.elapsed()) - build_ms - draw_ms;
@@ -185,15 +185,21 @@ impl Job<'_> {
         Ok((image, FrameTimes { draw_ms, shade_ms, ..none }))
     }
 
+    /// To be given what stopped a frame.
+    fn stopped(&self, number: u32) -> impl FnOnce(Error) -> Error {
+        move |source| {
+            let source = match source {
+                Error::Render(refusal) => self.options.refused(refusal),
+                source => source,
+            };
+            Error::Frame { number, source: Box::new(source) }
+        }
+    }
+
     fn write(&self, number: u32, image: &Image) -> Result<(), Error> {
         let png = encode_described_png(image, &self.description(number))?;
         Ok(write_atomically(&self.out.path(number), &png)?)
     }
-}
-
-/// To be given what stopped a frame.
-fn in_frame(number: u32) -> impl FnOnce(Error) -> Error {
-    move |source| Error::Frame { number, source: Box::new(source) }
 }
 
 /// An error with its causes, in one line.

@@ -3,10 +3,12 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use fbvh::Tracer;
+use glam::Vec3;
 use metaball_core::gpu::{Gpu, IsoRenderer};
-use metaball_core::{Hit, Image, Scene, View};
+use metaball_core::{Color, Hit, Image, Scene, ValueRange, View};
 use metaball_light::gpu::PathTracer;
-use metaball_light::{Effects, Film};
+use metaball_light::{DepthCue, Effects, Film, cpu, develop};
 
 use crate::Error;
 use crate::summary::Progress;
@@ -36,7 +38,39 @@ pub(crate) struct Lit {
 }
 
 impl Lighting {
-    /// Draws a picture. `renderer` has built the scene; `hits` are the view's first hits; after each
+    /// Paths of light a pixel.
+    pub(crate) fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Whether a pixel's light depends on the hits around it.
+    pub(crate) fn cues_depth(&self) -> bool {
+        self.depth_cue.is_some()
+    }
+
+    /// What changes the light of a picture with these distances, if anything does.
+    pub(crate) fn depth_cue(&self, view: &View, range: ValueRange) -> Option<DepthCue> {
+        let size = (view.width(), view.height());
+        self.depth_cue.map(|strength| DepthCue::new(size, range, DEPTH_CUE_WIDTH, strength))
+    }
+
+    /// The picture of light.
+    pub(crate) fn develop(&self, light: &[Vec3]) -> Vec<Color> {
+        develop(light, self.stops)
+    }
+
+    /// The same light on the CPU; `None` where the tree does not follow the rays that it needs.
+    pub(crate) fn on_cpu<'a>(
+        &self,
+        tracer: &'a Tracer<'a, Scene>,
+        scene: &'a Scene,
+        view: &View,
+    ) -> Option<cpu::PathTracer<'a, Tracer<'a, Scene>>> {
+        let Self { effects, samples, seed, .. } = self;
+        cpu::PathTracer::new(tracer, scene, view, effects, *samples, *seed).ok()
+    }
+
+    /// Draws a picture on the adapter. `renderer` has built the scene; `hits` are the view's first hits; after each
     /// sample `progress` gets how many are done, and may break off.
     pub(crate) fn draw(
         &self,
