@@ -38,7 +38,7 @@ pub(crate) struct DrawingArgs {
     /// What the picture shows: phong, normal, depth, color, spheres, or work:COUNTER.
     #[arg(long, value_name = "WHAT", default_value = "phong", value_parser = picture_named)]
     picture: Picture,
-    /// Trace on the CPU, without a graphics adapter: what happens anyway where there is none.
+    /// Trace on the CPU: what happens anyway where there is no graphics processor.
     #[arg(long, conflicts_with_all = ["adapter", "software"])]
     cpu: bool,
     /// One colour for all balls, sRGB, 0 to 1; the scene's own, or white, when left out.
@@ -71,7 +71,11 @@ impl DrawingArgs {
                 Method::Listed(listed.into())
             }
         };
-        let backend = if cpu { Backend::Cpu } else { Backend::Adapter(shared.adapter.choice()) };
+        let backend = match shared.adapter.asked() {
+            _ if cpu => Backend::Cpu,
+            Some(choice) => Backend::Adapter(choice),
+            None => Backend::Fastest,
+        };
         let options = DrawOptions {
             method,
             size: shared.size,
@@ -266,7 +270,7 @@ fn report(name: &str, scene: &Scene, summary: &Summary) {
     for (name, value) in account {
         line(name, value);
     }
-    line("adapter", computed_by);
+    line("drawn by", computed_by);
     line("build", &time(build));
     line("frame", &time(&tally.frame));
     line("rays", &ray_facts(tally));
@@ -281,7 +285,11 @@ fn report(name: &str, scene: &Scene, summary: &Summary) {
 fn ray_facts(tally: &Tally) -> String {
     let counts = [tally.pixels(), tally.hits, tally.misses, tally.inside, tally.undecided];
     let [all, hits, misses, inside, undecided] = counts.map(|rays| grouped(rays as usize));
-    format!("{all}: {hits} hits, {misses} misses, {inside} inside, {undecided} undecided")
+    let again = match tally.asked_again {
+        0 => String::new(),
+        rays => format!("; {} asked again in f64", grouped(rays as usize)),
+    };
+    format!("{all}: {hits} hits, {misses} misses, {inside} inside, {undecided} undecided{again}")
 }
 
 fn light_facts(tally: &Tally, samples: u32) -> String {
@@ -305,7 +313,7 @@ fn outcome_text(outcome: &FrameOutcome) -> String {
 fn report_animation(report: &AnimationReport) {
     line("scene", &report.scene);
     line("method", &report.method);
-    line("adapter", &report.computed_by);
+    line("drawn by", &report.computed_by);
     line("drawn", &format!("{} frames in {}", report.frames.len(), ms(report.wall_ms)));
     if let Some(median) = &report.median {
         line("load", &ms(median.load_ms));

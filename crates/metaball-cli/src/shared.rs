@@ -60,11 +60,13 @@ pub(crate) struct AdapterArgs {
 
 impl AdapterArgs {
     pub(crate) fn choice(&self) -> AdapterChoice {
-        match &self.adapter {
-            Some(name) => AdapterChoice::Named(name.clone()),
-            None if self.software => AdapterChoice::Software,
-            None => AdapterChoice::Environment,
-        }
+        self.asked().unwrap_or_default()
+    }
+
+    /// The adapter asked for, if any.
+    pub(crate) fn asked(&self) -> Option<AdapterChoice> {
+        let software = self.software.then_some(AdapterChoice::Software);
+        self.adapter.clone().map(AdapterChoice::Named).or(software)
     }
 }
 

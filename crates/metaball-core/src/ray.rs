@@ -58,6 +58,19 @@ impl Hit {
     pub const MISS: Self =
         Self { verdict: Verdict::Miss, fallback: false, t: f32::INFINITY, normal: Vec3::ZERO };
 
+    /// The hit, but for a ray that is undecided: where a root was sought and not told apart from none, a
+    /// hit is most likely, and elsewhere a miss.
+    #[must_use]
+    pub fn most_likely(&self) -> Self {
+        match self.verdict {
+            Verdict::Undecided if self.t.is_finite() && self.normal != Vec3::ZERO => {
+                Self { verdict: Verdict::Hit, ..*self }
+            }
+            Verdict::Undecided => Self { fallback: self.fallback, ..Self::MISS },
+            _ => *self,
+        }
+    }
+
     /// Whether there is a surface point: a hit, or a start inside.
     pub fn is_hit(&self) -> bool {
         matches!(self.verdict, Verdict::Hit | Verdict::Inside)
@@ -155,6 +168,14 @@ mod tests {
             assert_eq!(Hit { normal, ..back }, hit);
         }
         assert_eq!(PackedHit::from(Hit::MISS).unpack(), Hit::MISS);
+    }
+
+    #[test]
+    fn what_is_undecided_is_most_likely_a_hit_where_a_root_was_sought() {
+        let hit = Hit { verdict: Verdict::Hit, fallback: false, t: 2.0, normal: Vec3::Y };
+        assert_eq!(Hit { verdict: Verdict::Undecided, ..hit }.most_likely(), hit);
+        assert_eq!(Hit { verdict: Verdict::Undecided, ..Hit::MISS }.most_likely(), Hit::MISS);
+        assert_eq!(hit.most_likely(), hit);
     }
 
     #[test]

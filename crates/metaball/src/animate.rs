@@ -95,12 +95,12 @@ pub fn animate(
         lighting = is_lit.then(|| draw.light.lighting(&camera, &first)).transpose()?;
     }
     let view = View::new(camera, width, height)?;
-    let gpu = draw.backend.open()?;
+    let opened = draw.open()?;
     let job = Job {
         options: draw,
         scene,
         view: &view,
-        gpu: gpu.as_ref(),
+        gpu: opened.gpu.as_ref(),
         lighting: lighting.as_ref(),
         out: &options.out,
     };
@@ -116,7 +116,7 @@ pub fn animate(
         job.draw(&missing, options.in_turn, |frame| on_event(AnimationEvent::Done(frame)))?;
 
     let report =
-        AnimationReport::new((job.scene.name(), job.gpu), options, kept, frames, start.elapsed());
+        AnimationReport::new((job.scene.name(), &opened), options, kept, frames, start.elapsed());
     let path = options.out.path(numbers[0]).with_extension("json");
     let json = serde_json::to_vec_pretty(&report).map_err(|source| PictureFileError::Encode {
         what: path.display().to_string(),

@@ -5,43 +5,64 @@ use metaball_core::gpu::{AdapterChoice, Gpu, GpuError};
 use crate::Error;
 
 /// What computes a picture.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum Backend {
-    /// A graphics adapter. Where the machine has none at all, and none was asked for by name, the
-    /// CPU.
+    /// A graphics processor if the machine has one, else the CPU: an adapter that computes on the CPU
+    /// itself is slower than the CPU's own tracer, and is taken only for what needs an adapter. An
+    /// adapter that the environment variable `WGPU_ADAPTER_NAME` names counts as asked for.
+    #[default]
+    Fastest,
+    /// A graphics adapter.
     Adapter(AdapterChoice),
     /// The CPU, without any graphics API.
     Cpu,
 }
 
-impl Default for Backend {
-    /// The adapter that the environment variables of wgpu name, or the best.
-    fn default() -> Self {
-        Self::Adapter(AdapterChoice::Environment)
-    }
+/// What was opened to compute a picture, and why.
+pub(crate) struct Opened {
+    /// The adapter; `None` when it is the CPU that computes.
+    pub(crate) gpu: Option<Gpu>,
+    why: String,
 }
 
 impl Backend {
-    /// The adapter; `None` when it is the CPU that computes.
-    pub(crate) fn open(&self) -> Result<Option<Gpu>, Error> {
-        let Self::Adapter(choice) = self else { return Ok(None) };
-        match Gpu::new(choice) {
-            Ok(gpu) => Ok(Some(gpu)),
-            Err(GpuError::NoAdapter { choice, found })
-                if found.is_empty() && !matches!(choice, AdapterChoice::Named(_)) =>
-            {
-                Ok(None)
+    /// Opens what computes. `needs_adapter` says what cannot be drawn without an adapter, if anything.
+    pub(crate) fn open(&self, needs_adapter: Option<&str>) -> Result<Opened, Error> {
+        let choice = match self {
+            Self::Cpu => return Ok(Opened { gpu: None, why: "asked for".to_owned() }),
+            Self::Adapter(choice) => {
+                let gpu = Some(Gpu::new(choice)?);
+                return Ok(Opened { gpu, why: "asked for".to_owned() });
             }
-            Err(error) => Err(error.into()),
+            Self::Fastest if std::env::var_os("WGPU_ADAPTER_NAME").is_some() => {
+                let gpu = Some(Gpu::new(&AdapterChoice::Environment)?);
+                return Ok(Opened { gpu, why: "named by WGPU_ADAPTER_NAME".to_owned() });
+            }
+            Self::Fastest if needs_adapter.is_some() => AdapterChoice::Environment,
+            Self::Fastest => AdapterChoice::Hardware,
+        };
+        match (Gpu::new(&choice), needs_adapter) {
+            (Ok(gpu), Some(what)) => {
+                Ok(Opened { gpu: Some(gpu), why: format!("{what} needs an adapter") })
+            }
+            (Ok(gpu), None) => {
+                Ok(Opened { gpu: Some(gpu), why: "a graphics processor".to_owned() })
+            }
+            (Err(GpuError::NoAdapter { .. }), None) => {
+                Ok(Opened { gpu: None, why: "no graphics processor found".to_owned() })
+            }
+            (Err(error), _) => Err(error.into()),
         }
     }
+}
 
-    /// What computes, in words; `gpu` is what [`Self::open`] found.
-    pub(crate) fn describe(&self, gpu: Option<&Gpu>) -> String {
-        match (gpu, self) {
-            (Some(gpu), _) => format!("{} ({})", gpu.report().name, gpu.report().driver),
-            (None, Self::Cpu) => "none asked for: traced on the CPU".to_owned(),
-            (None, Self::Adapter(_)) => "no graphics adapter: traced on the CPU".to_owned(),
+impl Opened {
+    /// What computes and why, in a line.
+    pub(crate) fn describe(&self) -> String {
+        let Self { gpu, why } = self;
+        match gpu {
+            Some(gpu) => format!("{} ({}): {why}", gpu.report().name, gpu.report().driver),
+            None => format!("the CPU ({} threads): {why}", rayon::current_num_threads()),
         }
     }
 }
@@ -53,7 +74,25 @@ mod tests {
     #[test]
     fn an_adapter_asked_for_by_name_is_not_replaced() {
         let backend = Backend::Adapter(AdapterChoice::Named("Voodoo".to_owned()));
-        assert!(backend.open().expect_err("refused").to_string().contains("Voodoo"));
-        assert!(Backend::Cpu.open().expect("nothing to open").is_none());
+        let error = backend.open(None).map(|opened| opened.describe()).expect_err("refused");
+        assert!(error.to_string().contains("Voodoo"), "{error}");
+    }
+
+    #[test]
+    fn the_cpu_draws_unless_there_is_a_graphics_processor() {
+        let cpu = Backend::Cpu.open(Some("method kanamori")).expect("nothing to open");
+        assert!(cpu.gpu.is_none() && cpu.describe().starts_with("the CPU ("));
+        let fastest = Backend::Fastest.open(None).expect("the CPU at least");
+        let is_software = fastest.gpu.as_ref().is_some_and(|gpu| gpu.report().is_software());
+        let is_named = std::env::var_os("WGPU_ADAPTER_NAME").is_some();
+        assert!(is_named || !is_software, "{}", fastest.describe());
+    }
+
+    #[test]
+    fn what_needs_an_adapter_gets_one_or_says_so() {
+        match Backend::Fastest.open(Some("method kanamori")) {
+            Ok(opened) => assert!(opened.gpu.is_some() && opened.describe().contains("kanamori")),
+            Err(error) => assert!(error.to_string().contains("no graphics adapter"), "{error}"),
+        }
     }
 }

@@ -9,7 +9,9 @@ use metaball_core::{Camera, Hit, Image, Picture, Scene, ValueRange, View};
 use metaball_light::Film;
 use picture_files::{write_hits, write_light, write_png};
 
+use crate::backend::Opened;
 use crate::band::{Band, bands};
+use crate::certain::Certain;
 use crate::cpu::{Built, Painter};
 use crate::light::Lighting;
 use crate::shade::CpuPicture;
@@ -34,7 +36,7 @@ pub struct DrawOptions {
 }
 
 impl Default for DrawOptions {
-    /// The certified tree, 640 × 480 pixels, the scene's own camera, Phong shading, the best adapter.
+    /// The certified tree, 640 × 480 pixels, the scene's own camera, Phong shading, whatever is fastest.
     fn default() -> Self {
         Self {
             method: Method::default(),
@@ -111,8 +113,8 @@ pub(crate) fn no_light() -> Error {
 /// When an option cannot be used, or method or adapter cannot draw the scene.
 pub fn draw(scene: &Scene, camera: &Camera, options: &DrawOptions) -> Result<Drawing, Error> {
     let view = options.view(scene, camera)?;
-    let gpu = options.backend.open()?;
-    match on_adapter(gpu.as_ref(), options, scene, &view, |_| ControlFlow::Continue(()))? {
+    let opened = options.open()?;
+    match on_adapter(&opened, options, scene, &view, |_| ControlFlow::Continue(()))? {
         Attempt::Drawn(drawing) => Ok(*drawing),
         Attempt::Left { computed_by } => {
             let lighting = options.lighting(&view, scene)?;
@@ -133,17 +135,20 @@ pub(crate) enum Attempt {
 /// Draws a picture on the adapter, if there is one and the picture fits. After each sample of ray traced
 /// light the callback gets how many are done, and may break off.
 pub(crate) fn on_adapter(
-    gpu: Option<&Gpu>,
+    opened: &Opened,
     options: &DrawOptions,
     scene: &Scene,
     view: &View,
     progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Attempt, Error> {
-    let Some(gpu) = gpu else {
-        return Ok(Attempt::Left { computed_by: options.backend.describe(None) });
+    let Some(gpu) = &opened.gpu else {
+        return Ok(Attempt::Left { computed_by: opened.describe() });
     };
     match drawn_by(gpu, options, scene, view, progress) {
-        Ok(drawing) => Ok(Attempt::Drawn(Box::new(drawing))),
+        Ok(drawing) => {
+            let summary = Summary { computed_by: opened.describe(), ..drawing.summary };
+            Ok(Attempt::Drawn(Box::new(Drawing { summary, ..drawing })))
+        }
         Err(Error::Render(refusal)) if refusal.is_too_large() && options.is_for_cpu() => {
             let computed_by = format!("the CPU, being too large for the adapter: {refusal}");
             Ok(Attempt::Left { computed_by })
@@ -164,14 +169,16 @@ fn drawn_by(
     let Prepared { mut renderer, build, account } = prepared(gpu, options, scene, view)?;
     gpu::render(gpu, renderer.as_mut(), &targets, view)?;
     let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?.wall;
-    let hits = targets.read_hits(gpu)?;
-    let tally = Tally { frame, ..Tally::of(&hits) };
+    let certain = Certain::new(scene);
+    let mut hits = targets.read_hits(gpu)?;
+    let asked_again = certain.decide(gpu, &targets, view, &mut hits)?;
+    let tally = Tally { frame, asked_again, ..Tally::of(&hits) };
     let mut summary = Summary {
         tally,
         range: None,
         samples: None,
         account,
-        computed_by: options.backend.describe(Some(gpu)),
+        computed_by: gpu.report().name.clone(),
         build,
     };
     let Some(lighting) = options.lighting(view, scene)? else {
@@ -179,9 +186,10 @@ fn drawn_by(
         summary.range = shaded.range;
         return Ok(Drawing { image: shaded.image, hits, film: None, summary });
     };
-    let lit = lighting.draw(gpu, renderer.as_mut(), scene, view, &hits, progress)?;
+    let lit = lighting.draw(gpu, renderer.as_mut(), &certain, view, &hits, progress)?;
     summary.samples = Some(lit.samples);
-    (summary.tally.light, summary.tally.undecided_light) = (lit.time, lit.undecided);
+    summary.tally.light = lit.time;
+    summary.tally.asked_again += lit.asked_again;
     Ok(Drawing { image: lit.image, hits, film: Some(lit.film), summary })
 }
 
@@ -256,7 +264,7 @@ pub(crate) fn on_cpu(
         range,
         samples: lighting.map(Lighting::samples),
         account: options.method.account(),
-        computed_by: options.backend.describe(None),
+        computed_by: "the CPU".to_owned(),
         build: built.time,
     };
     Ok(Drawing {
@@ -273,6 +281,18 @@ impl DrawOptions {
         let (width, height) = self.size;
         let camera = self.viewpoint.camera(camera, scene.bounds().center())?;
         Ok(View::new(camera, width, height)?)
+    }
+
+    /// Opens what draws it.
+    pub(crate) fn open(&self) -> Result<Opened, Error> {
+        let needs_adapter = if self.method.tree().is_none() {
+            Some(format!("method {}", self.method.name()))
+        } else if !self.is_for_cpu() {
+            Some(format!("picture {:?}", self.picture))
+        } else {
+            None
+        };
+        self.backend.open(needs_adapter.as_deref())
     }
 
     /// The light that is asked for, if any is.
@@ -323,6 +343,7 @@ impl DrawOptions {
 #[cfg(test)]
 mod tests {
     use bench_scenes::{Overrides, load};
+    use metaball_core::gpu::AdapterChoice;
 
     use super::*;
 
@@ -356,7 +377,8 @@ mod tests {
             return;
         }
         let bench = load("two-merging", &Overrides::default()).expect("known");
-        let long = DrawOptions { size: (600_000, 1), ..DrawOptions::default() };
+        let backend = Backend::Adapter(AdapterChoice::Environment);
+        let long = DrawOptions { size: (600_000, 1), backend, ..DrawOptions::default() };
         let drawing = draw(&bench.scene, &bench.camera, &long).expect("drawn");
         let reason = drawing.summary.computed_by;
         assert!(

@@ -67,8 +67,7 @@ pub fn draw_to_files(
     let computed_by = if outputs.resume && Spool::path_beside(&outputs.image).exists() {
         "the CPU, which began the picture".to_owned()
     } else {
-        let gpu = options.backend.open()?;
-        match on_adapter(gpu.as_ref(), options, scene, &view, &mut progress)? {
+        match on_adapter(&options.open()?, options, scene, &view, &mut progress)? {
             Attempt::Drawn(drawing) => return save(*drawing, outputs, &view),
             Attempt::Left { computed_by } => computed_by,
         }
@@ -119,7 +118,7 @@ impl Job<'_> {
             range: finisher.and_then(|finisher| finisher.scale()),
             samples: lighting.map(|lighting| lighting.samples()),
             account: options.method.account(),
-            computed_by: options.backend.describe(None),
+            computed_by: "the CPU".to_owned(),
             build: built.time,
         })
     }

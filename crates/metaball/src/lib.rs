@@ -35,6 +35,7 @@
 mod animate;
 mod backend;
 mod band;
+mod certain;
 mod cpu;
 mod draw;
 mod error;

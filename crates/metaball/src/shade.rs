@@ -9,9 +9,6 @@ use rayon::prelude::*;
 
 use crate::Error;
 
-/// A pixel that is undecided.
-const ALARM: Vec3 = Vec3::new(1.0, 0.0, 0.6);
-
 /// A picture that needs no adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CpuPicture {
@@ -74,7 +71,7 @@ impl<'a> Shader<'a> {
     ) -> Vec<Color> {
         let (width, height) = (self.view.width() as usize, self.view.height());
         let camera = self.view.camera();
-        let pixel = |(index, (ray, hit)): (usize, (&Ray, &Hit))| match self.picture {
+        let shade = |index: usize, ray: &Ray, hit: &Hit| match self.picture {
             CpuPicture::Phong | CpuPicture::Color => {
                 let row = row + (index / width) as u32;
                 Color::from_linear(self.light(background(row, height), ray, hit))
@@ -82,14 +79,18 @@ impl<'a> Shader<'a> {
             CpuPicture::Normal => stored(normal(camera, hit)),
             CpuPicture::Depth => stored(grey(hit, range)),
         };
-        rays.par_iter().zip(hits).enumerate().map(pixel).collect()
+        let hits = hits.par_iter().map(Hit::most_likely);
+        rays.par_iter()
+            .zip(hits)
+            .enumerate()
+            .map(|(index, (ray, hit))| shade(index, ray, &hit))
+            .collect()
     }
 
     fn light(&self, background: Vec3, ray: &Ray, hit: &Hit) -> Vec3 {
         let color = || self.colors.at(ray.origin + hit.t * ray.direction, &[]);
         match (self.picture, hit.verdict) {
-            (_, Verdict::Miss) => background,
-            (_, Verdict::Undecided) => ALARM,
+            (_, Verdict::Miss | Verdict::Undecided) => background,
             (CpuPicture::Color, _) => color(),
             (_, Verdict::Inside) => 0.25 * color(),
             _ => phong(self.view.camera(), color(), hit.normal, -ray.direction),
@@ -108,7 +109,7 @@ fn phong(camera: &Camera, base: Vec3, normal: Vec3, toward_eye: Vec3) -> Vec3 {
     let ambient =
         Vec3::new(0.035, 0.033, 0.03).lerp(Vec3::new(0.11, 0.12, 0.14), 0.5 + 0.5 * normal.dot(up));
     let mirrored = (-key).reflect(normal).dot(toward_eye).max(0.0);
-    base * (key_light + fill_light + ambient) + 0.22 * mirrored.powf(48.0)
+    base * (key_light + fill_light + ambient) + 0.22 * libm::powf(mirrored, 48.0)
 }
 
 /// Behind everything: a gradient down the picture.

@@ -47,9 +47,11 @@ pub struct Tally {
     pub inside: u64,
     /// Those that the method could not tell.
     pub undecided: u64,
-    /// Rays of ray traced light that the method could not tell: on the CPU of all samples, on an
-    /// adapter of the last.
+    /// Rays of ray traced light that the method could not tell, all samples.
     pub undecided_light: u64,
+    /// Rays through the middles of pixels, and lit pixels, that an adapter could not tell in f32, and
+    /// that the CPU was asked instead.
+    pub asked_again: u64,
     /// Time for the rays through the middles of pixels; on an adapter that of a second frame, since
     /// shaders are compiled with the first.
     pub frame: Duration,
@@ -82,6 +84,7 @@ impl AddAssign for Tally {
         self.inside += other.inside;
         self.undecided += other.undecided;
         self.undecided_light += other.undecided_light;
+        self.asked_again += other.asked_again;
         self.frame += other.frame;
         self.light += other.light;
     }

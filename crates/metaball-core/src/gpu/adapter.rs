@@ -11,6 +11,8 @@ pub enum AdapterChoice {
     /// where they are not set, the fastest adapter.
     #[default]
     Environment,
+    /// The fastest adapter that is a graphics processor.
+    Hardware,
     /// The first adapter whose name contains this text, whatever the case.
     Named(String),
     /// An adapter that computes on the CPU, the same on every machine with the same driver.
@@ -50,6 +52,7 @@ A Vulkan, Metal or Direct3D 12 driver is needed. One that computes on the CPU wi
 fn for_choice(choice: &AdapterChoice) -> String {
     match choice {
         AdapterChoice::Environment => String::new(),
+        AdapterChoice::Hardware => " that is a graphics processor".to_owned(),
         AdapterChoice::Named(name) => format!(" with \"{name}\" in its name"),
         AdapterChoice::Software => " that computes on the CPU".to_owned(),
     }
@@ -146,7 +149,12 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> 
             force_fallback_adapter: choice == AdapterChoice::Software,
             ..wgpu::RequestAdapterOptions::default()
         };
-        pollster::block_on(instance.request_adapter(&options)).ok()
+        let adapter = pollster::block_on(instance.request_adapter(&options)).ok();
+        let is_wanted = |adapter: &wgpu::Adapter| {
+            choice != AdapterChoice::Hardware
+                || adapter.get_info().device_type != wgpu::DeviceType::Cpu
+        };
+        adapter.filter(is_wanted)
     };
     adapter.ok_or_else(|| GpuError::NoAdapter {
         choice,

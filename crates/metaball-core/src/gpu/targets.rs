@@ -207,6 +207,16 @@ impl Targets {
         gpu.checked(|| gpu.queue.write_buffer(&self.hits, 0, bytemuck::cast_slice(&packed)))
     }
 
+    /// Replaces the blended colour of a pixel of the last frame, if the targets have colours.
+    ///
+    /// # Errors
+    /// When the device fails, or there is no such pixel.
+    pub fn write_color(&self, gpu: &Gpu, pixel: usize, color: Color) -> Result<(), RenderError> {
+        let Some(colors) = &self.colors else { return Ok(()) };
+        let offset = (pixel * size_of::<Color>()) as u64;
+        gpu.checked(|| gpu.queue.write_buffer(colors, offset, bytemuck::bytes_of(&color)))
+    }
+
     /// The rays of the last frame, bit for bit as shaders saw them. `view` is that frame's. Waits for the
     /// device.
     ///

@@ -88,6 +88,13 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
         Rows { light, rays }
     }
 
+    /// The light of some pixels, named by their indices row by row: the mean of all samples.
+    pub fn pixels(&self, pixels: &[u32]) -> Vec<Vec3> {
+        let mut scratch = Scratch::new(self.tracer.scratch());
+        let sums = self.sums(pixels, &mut scratch);
+        sums.into_iter().map(|sum| sum / self.samples as f32).collect()
+    }
+
     /// Pixels of a tile, and the sums of their samples.
     fn tile(
         &self,
@@ -106,15 +113,21 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
                 }
             }
         }
-        let mut sums = vec![Vec3::ZERO; pixels.len()];
         scratch.rays = Rays::default();
+        let sums = self.sums(&pixels, scratch);
+        (pixels, sums, scratch.rays)
+    }
+
+    /// The sums of the samples of some pixels.
+    fn sums(&self, pixels: &[u32], scratch: &mut Scratch<T::Scratch>) -> Vec<Vec3> {
+        let mut sums = vec![Vec3::ZERO; pixels.len()];
         for index in 0..self.samples {
-            self.follow(Sample { pixels: &pixels, index }, scratch);
+            self.follow(Sample { pixels, index }, scratch);
             for (sum, path) in sums.iter_mut().zip(&scratch.paths) {
                 *sum += path.radiance;
             }
         }
-        (pixels, sums, scratch.rays)
+        sums
     }
 
     /// The surface's own colour in linear light.

@@ -18,7 +18,7 @@ impl Lighting {
         found: &SurfaceHit,
         read: impl FnOnce() -> (f32, Vec3),
     ) -> bool {
-        let hit = &found.hit;
+        let hit = found.hit.most_likely();
         // A ray that starts beyond the surface that it seeks has met it; so has an eye in the solid.
         let is_met = hit.is_hit();
         let t_surface = if hit.verdict == Verdict::Hit { hit.t } else { 0.0 };
@@ -26,7 +26,7 @@ impl Lighting {
         let is_on_floor = t_floor < if is_met { t_surface } else { NO_LIMIT };
         let t = if is_on_floor { t_floor } else { t_surface };
         path.on_floor = u32::from(is_on_floor);
-        path.undecided += u32::from(hit.verdict == Verdict::Undecided);
+        path.undecided += u32::from(found.hit.verdict == Verdict::Undecided);
         if path.stage == WITHIN {
             path.throughput *= self.transmittance(t);
         }

@@ -112,7 +112,8 @@ impl<'a> PathTracer<'a> {
         Ok(report)
     }
 
-    /// The mean of the samples so far; black before the first.
+    /// The mean of the samples so far, of each pixel those whose rays have all been decided; black where
+    /// there is none.
     ///
     /// # Errors
     /// When the device fails.
@@ -120,6 +121,20 @@ impl<'a> PathTracer<'a> {
         let sums = self.gpu.read::<Vec4>(&self.buffers.film)?;
         let light = sums.iter().map(|sum| sum.truncate() / sum.w.max(1.0)).collect();
         Ok(Film { width: self.view.width(), height: self.view.height(), light })
+    }
+
+    /// Pixels that a sample is missing of, since the method left a ray of it undecided: indices row by
+    /// row. A tracer on the CPU that can tell draws them whole ([`cpu::PathTracer::pixels`]).
+    ///
+    /// [`cpu::PathTracer::pixels`]: crate::cpu::PathTracer::pixels
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn unfinished(&self) -> Result<Vec<u32>, RenderError> {
+        let sums = self.gpu.read::<Vec4>(&self.buffers.film)?;
+        let samples = self.settings.sample as f32;
+        let pixels = (0..).zip(&sums).filter(|(_, sum)| sum.w < samples);
+        Ok(pixels.map(|(pixel, _)| pixel).collect())
     }
 
     /// Rays of the last sample that the method left undecided.

@@ -24,6 +24,7 @@ use particle_files::{AnimatedScene, BoxError, NumberedPath};
 use picture_files::{encode_described_png, write_atomically};
 
 use super::report::{FrameOutcome, FrameReport, FrameTimes, milliseconds};
+use crate::certain::Certain;
 use crate::draw::on_cpu;
 use crate::light::Lighting;
 use crate::summary::Summary;
@@ -173,11 +174,13 @@ impl Job<'_> {
         };
         let frame = gpu::render(gpu, renderer.as_mut(), targets, self.view)?;
         let start = Instant::now();
+        let certain = Certain::new(scene);
+        let mut hits = targets.read_hits(gpu)?;
+        certain.decide(gpu, targets, self.view, &mut hits)?;
         let image = match self.lighting {
             Some(lighting) => {
-                let hits = targets.read_hits(gpu)?;
                 let all = |_| ControlFlow::Continue(());
-                lighting.draw(gpu, renderer.as_mut(), scene, self.view, &hits, all)?.image
+                lighting.draw(gpu, renderer.as_mut(), &certain, self.view, &hits, all)?.image
             }
             None => Shading::new(gpu).draw(targets, self.view, scene, self.options.picture)?.image,
         };

@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use metaball_core::gpu::Gpu;
 use serde::Serialize;
 
 use super::AnimateOptions;
+use crate::backend::Opened;
 
 /// A run of [`animate`](super::animate()); the file beside the frames.
 #[derive(Debug, Clone, Serialize)]
@@ -81,14 +81,14 @@ pub(super) fn milliseconds(time: Duration) -> f64 {
 
 impl AnimationReport {
     pub(super) fn new(
-        (scene, gpu): (&str, Option<&Gpu>),
+        (scene, opened): (&str, &Opened),
         options: &AnimateOptions,
         kept: Vec<u32>,
         frames: Vec<FrameReport>,
         wall: Duration,
     ) -> Self {
         let times: Vec<_> = frames.iter().filter_map(FrameReport::times).collect();
-        let shared = gpu.is_some_and(|gpu| gpu.report().is_software());
+        let shared = opened.gpu.as_ref().is_some_and(|gpu| gpu.report().is_software());
         let caveat = (shared && !options.in_turn).then(|| {
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             format!(
@@ -99,7 +99,7 @@ impl AnimationReport {
         Self {
             scene: scene.to_owned(),
             method: options.draw.method.name().to_owned(),
-            computed_by: options.draw.backend.describe(gpu),
+            computed_by: opened.describe(),
             size: options.draw.size,
             in_turn: options.in_turn,
             kept,

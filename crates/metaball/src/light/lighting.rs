@@ -11,6 +11,7 @@ use metaball_light::gpu::PathTracer;
 use metaball_light::{DepthCue, Effects, Film, cpu, develop};
 
 use crate::Error;
+use crate::certain::Certain;
 use crate::summary::Progress;
 
 /// Standard deviation of the depth cue's Gaussian, in parts of the picture's height.
@@ -33,8 +34,8 @@ pub(crate) struct Lit {
     pub(crate) film: Film,
     pub(crate) samples: u32,
     pub(crate) time: Duration,
-    /// Rays of the last sample that the method could not answer.
-    pub(crate) undecided: u64,
+    /// Pixels with rays that the adapter could not tell, which the CPU has drawn.
+    pub(crate) asked_again: u64,
 }
 
 impl Lighting {
@@ -70,20 +71,20 @@ impl Lighting {
         cpu::PathTracer::new(tracer, scene, view, effects, *samples, *seed).ok()
     }
 
-    /// Draws a picture on the adapter. `renderer` has built the scene; `hits` are the view's first hits; after each
-    /// sample `progress` gets how many are done, and may break off.
+    /// Draws a picture on the adapter. `renderer` has built the scene; `hits` are the view's first hits;
+    /// after each sample `progress` gets how many are done, and may break off.
     pub(crate) fn draw(
         &self,
         gpu: &Gpu,
         renderer: &mut dyn IsoRenderer,
-        scene: &Scene,
+        certain: &Certain<'_>,
         view: &View,
         hits: &[Hit],
         mut progress: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Lit, Error> {
         let samples = self.samples;
         let mut tracer =
-            PathTracer::new(gpu, scene, view, self.effects.clone(), samples, self.seed)?;
+            PathTracer::new(gpu, certain.scene, view, self.effects.clone(), samples, self.seed)?;
         let start = Instant::now();
         for done in 1..=samples {
             tracer.add_sample(renderer)?;
@@ -91,12 +92,14 @@ impl Lighting {
                 return Err(Error::Interrupted);
             }
         }
-        let time = start.elapsed();
         let mut film = tracer.film()?;
+        let unfinished = tracer.unfinished()?;
+        certain.relight(self, view, &unfinished, &mut film)?;
+        let time = start.elapsed();
         if let Some(strength) = self.depth_cue {
             film.cue_depth(hits, DEPTH_CUE_WIDTH, strength);
         }
         let image = film.develop(self.stops);
-        Ok(Lit { image, film, samples, time, undecided: tracer.undecided()? })
+        Ok(Lit { image, film, samples, time, asked_again: unfinished.len() as u64 })
     }
 }

@@ -111,7 +111,7 @@ impl Head {
     fn tally(&self) -> Tally {
         let [hits, misses, inside, undecided, undecided_light] = self.rays;
         let [frame, light] = self.times.map(Duration::from_nanos);
-        Tally { hits, misses, inside, undecided, undecided_light, frame, light }
+        Tally { hits, misses, inside, undecided, undecided_light, asked_again: 0, frame, light }
     }
 
     fn hash_with(&self, stored: &[u8]) -> u64 {
