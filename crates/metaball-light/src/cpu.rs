@@ -14,6 +14,7 @@ mod mirror;
 mod occlusion;
 mod path_tracer;
 mod phong;
+mod power;
 pub(crate) mod sampling;
 mod scatter;
 mod secondary;

@@ -1,8 +1,8 @@
 //! A generated environment: a clear sky over a studio floor, brightest at the horizon. The second axis
 //! points to the zenith.
 
+use super::super::power::power;
 use glam::Vec3;
-use libm::powf;
 
 const ZENITH: Vec3 = Vec3::new(0.11, 0.23, 0.47);
 const HORIZON: Vec3 = Vec3::new(0.66, 0.73, 0.80);
@@ -13,8 +13,8 @@ pub(super) fn light(direction: Vec3) -> Vec3 {
     // The horizon is soft: no edge to be seen through a lens.
     let share = ((up + 0.12) / 0.24).clamp(0.0, 1.0);
     let share = share * share * (3.0 - 2.0 * share);
-    let sky = || HORIZON.lerp(ZENITH, powf(up.clamp(0.0, 1.0), 0.55));
-    let ground = || (0.65 * HORIZON).lerp(FLOOR_NEAR, powf((-up).clamp(0.0, 1.0), 0.35));
+    let sky = || HORIZON.lerp(ZENITH, power(up.clamp(0.0, 1.0), 0.55));
+    let ground = || (0.65 * HORIZON).lerp(FLOOR_NEAR, power((-up).clamp(0.0, 1.0), 0.35));
     if share >= 1.0 {
         sky()
     } else if share <= 0.0 {
