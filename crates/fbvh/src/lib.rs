@@ -88,6 +88,9 @@
 //! - Any-hit rays end at the paper's bracket, whose end is a point inside. The paper has no test for
 //!   exits.
 //!
+//! # Among other methods
+//! [`host::Method`] is all of this behind [`metaball_core::HostMethod`], to be compared.
+//!
 //! # Features
 //! `gpu` adds the module `gpu`: all three structures as [`metaball_core`] renderers on wgpu. Without it
 //! nothing here depends on a GPU, except that [`Node`] and [`Leaf`] are laid out for one.
@@ -96,6 +99,7 @@ mod builder;
 mod field;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod host;
 mod node;
 mod options;
 mod stats;

@@ -14,7 +14,7 @@
 //! to the interval without de Casteljau's steps.
 //!
 //! # Practice
-//! Needs no adapter. Lists have no capacity to exceed and coincident points are all kept, so that answers
+//! Needs no adapter. [`Method`] is it behind [`HostMethod`], to be compared. Lists have no capacity to exceed and coincident points are all kept, so that answers
 //! are right up to the threshold of clipping, in parts of an interval. Perlin's kernel is no polynomial
 //! along a ray and is refused.
 
@@ -23,15 +23,17 @@ mod chord;
 mod clipping;
 mod intervals;
 mod middle_split;
+mod normal;
 
 use std::time::{Duration, Instant};
 
-use metaball_core::{Kernel, Ray, Scene};
+use metaball_core::{Hit, HostError, HostMethod, HostRenderer, Kernel, Ray, Scene, Verdict};
 use rayon::prelude::*;
 
 use self::chord::Chord;
 use self::intervals::Intervals;
 use self::middle_split::Tree;
+use self::normal::normal;
 
 /// A scene made ready for rays. Borrows it.
 #[derive(Debug)]
@@ -44,8 +46,8 @@ pub struct Baseline<'a> {
 /// Hits of rays, and the time and work that they took.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
-    /// t of each ray's first surface point: 0 where it starts inside, infinite where there is none.
-    pub distances: Vec<f32>,
+    /// Each ray's first surface point.
+    pub hits: Vec<Hit>,
     /// Time for finding and sorting the intersections with effective spheres, summed over threads.
     pub traversal: Duration,
     /// Time for the isosurface tests, summed over threads.
@@ -90,7 +92,7 @@ impl<'a> Baseline<'a> {
             .par_chunks(RAYS_PER_TASK)
             .map(|rays| self.trace_task(rays))
             .reduce(Traced::nothing, Traced::followed_by);
-        debug_assert_eq!(traced.distances.len(), rays.len(), "one distance a ray");
+        debug_assert_eq!(traced.hits.len(), rays.len(), "one hit a ray");
         traced
     }
 
@@ -113,8 +115,8 @@ impl<'a> Baseline<'a> {
         let mut traced = Traced::nothing();
         for ((intervals, range), ray) in found.iter().zip(rays) {
             let chords: &[Chord] = &chords[range.clone()];
-            let distance = self.first_hit(intervals, chords, ray, &mut traced);
-            traced.distances.push(distance);
+            let hit = self.first_hit(intervals, chords, ray, &mut traced);
+            traced.hits.push(hit);
         }
         traced.traversal = traversal;
         traced.isosurface = start.elapsed();
@@ -127,20 +129,60 @@ impl<'a> Baseline<'a> {
         chords: &[Chord],
         ray: &Ray,
         traced: &mut Traced,
-    ) -> f32 {
+    ) -> Hit {
         let mut search = clipping::Search::new(self.threshold);
         let found = intervals.first_hit(self.scene, chords, f64::from(ray.t_max), &mut search);
         traced.searches += search.searches;
         traced.iterations += search.iterations;
         traced.most_iterations = traced.most_iterations.max(search.most_iterations);
-        found.map_or(f32::INFINITY, |t| t as f32)
+        let Some(t) = found else { return Hit::MISS };
+        let verdict = if t > 0.0 { Verdict::Hit } else { Verdict::Inside };
+        let t = t as f32;
+        Hit { verdict, fallback: false, t, normal: normal(self.scene, chords, ray, t) }
+    }
+}
+
+/// The baseline among other methods.
+#[derive(Debug, Clone, Copy)]
+pub struct Method {
+    name: &'static str,
+    threshold: f64,
+}
+
+impl Method {
+    /// The baseline with the threshold of [`Baseline::build`], under a name for reports and errors.
+    pub const fn new(name: &'static str, threshold: f64) -> Self {
+        Self { name, threshold }
+    }
+}
+
+impl HostMethod for Method {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn build<'s>(&self, scene: &'s Scene) -> Result<Box<dyn HostRenderer + 's>, HostError> {
+        let baseline = Baseline::build(scene, self.threshold).map_err(|refusal| {
+            HostError::Unsupported { method: self.name, reason: refusal.to_string() }
+        })?;
+        Ok(Box::new(baseline))
+    }
+}
+
+impl HostRenderer for Baseline<'_> {
+    fn picture_hits(&self, rays: &[Ray], _width: usize) -> Vec<Hit> {
+        self.trace(rays).hits
+    }
+
+    fn bytes(&self) -> u64 {
+        self.tree.bytes() as u64
     }
 }
 
 impl Traced {
     fn nothing() -> Self {
         Self {
-            distances: Vec::new(),
+            hits: Vec::new(),
             traversal: Duration::ZERO,
             isosurface: Duration::ZERO,
             searches: 0,
@@ -150,7 +192,7 @@ impl Traced {
     }
 
     fn followed_by(mut self, mut next: Self) -> Self {
-        self.distances.append(&mut next.distances);
+        self.hits.append(&mut next.hits);
         self.traversal += next.traversal;
         self.isosurface += next.isosurface;
         self.searches += next.searches;

@@ -39,8 +39,9 @@
 //! # Contents
 //! - [`Scene`] of [`Metaball`]s, a [`Kernel`] and a threshold; [`Aabb`], [`Color`].
 //! - [`Camera`] and [`View`], which make primary [`Ray`]s; [`Hit`], what is found along one.
-//! - [`HostTracer`]: what follows rays from anywhere on the CPU, for light.
 //! - [`mod@reference`]: exact first hits on the CPU, for comparison.
+//! - [`HostMethod`]: what finds primary hits on the CPU, to be compared; [`HostTracer`]: what follows rays
+//!   from anywhere there, for light.
 //! - [`Picture`], [`Image`]: what pictures show, and their pixels; [`Work`]: what a pixel cost.
 //! - With feature `gpu`, module `gpu`: adapter, frames with timed passes, buffers of hits, shading, and the
 //!   trait `IsoRenderer` that methods implement. Without it the crate depends on no graphics API.
@@ -51,6 +52,7 @@ mod camera;
 mod color;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod host_method;
 mod host_tracer;
 mod kernel;
 mod picture;
@@ -64,6 +66,7 @@ pub use aabb::Aabb;
 pub use ball::{Metaball, Support};
 pub use camera::{Camera, CameraError, View, ViewError};
 pub use color::Color;
+pub use host_method::{HostError, HostMethod, HostRenderer};
 pub use host_tracer::{HostTracer, RayQuery, SurfaceHit};
 pub use kernel::{Exponent, ExponentError, Kernel};
 pub use picture::{Image, Picture, Shaded, ValueRange};

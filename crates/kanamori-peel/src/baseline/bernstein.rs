@@ -90,6 +90,7 @@ mod tests {
     #[test]
     fn a_contribution_is_the_kernel_along_the_chord() {
         let chord = Chord {
+            ball: 0,
             middle: 3.0,
             half_squared: 1.7,
             inverse_square: 0.5,

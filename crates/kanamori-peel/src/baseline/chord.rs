@@ -3,6 +3,8 @@
 /// A ball along a ray. Lengths count in the ray's t.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Chord {
+    /// Whose it is.
+    pub(super) ball: u32,
     /// t of the centre's projection.
     pub(super) middle: f64,
     /// Half the chord, squared; not negative.

@@ -122,7 +122,7 @@ impl Tree {
             match self.nodes[node as usize].content {
                 Content::Leaf(leaf) => {
                     for ball in self.leaves[leaf as usize].met(ray) {
-                        let Some(chord) = self.balls[ball as usize].chord(ray) else { continue };
+                        let Some(chord) = self.chord(ball, ray) else { continue };
                         kernel_sphere = kernel_sphere.min(chord.kernel_sphere());
                         limit = limit.min(round_up(kernel_sphere));
                         chords.push(chord);
@@ -145,6 +145,39 @@ impl Tree {
             }
         }
         kernel_sphere
+    }
+
+    /// A ball along the ray, in f64; `None` where the ray misses it or leaves it behind.
+    fn chord(&self, ball: u32, ray: &Ray) -> Option<Chord> {
+        let Ball { support, strength, kernel_radius } = self.balls[ball as usize];
+        let direction = ray.direction.as_dvec3();
+        let to_center = support.center.as_dvec3() - ray.origin.as_dvec3();
+        let square = direction.length_squared();
+        let middle = to_center.dot(direction) / square;
+        let off_axis = (to_center - middle * direction).length_squared();
+        let radius = f64::from(support.radius);
+        // t counts in the direction's own length, unit to rounding.
+        let half_squared = |radius: f64| (radius * radius - off_axis) / square;
+        let chord = Chord {
+            ball,
+            middle,
+            half_squared: half_squared(radius),
+            inverse_square: square / (radius * radius),
+            strength,
+            kernel_half_squared: if kernel_radius > 0.0 {
+                half_squared(kernel_radius)
+            } else {
+                -1.0
+            },
+        };
+        (chord.half_squared > 0.0 && chord.leave() > 0.0).then_some(chord)
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val::<[Node]>(&self.nodes)
+            + size_of_val::<[Leaf]>(&self.leaves)
+            + size_of_val::<[Ball]>(&self.balls)
     }
 }
 
@@ -187,32 +220,6 @@ impl Leaf {
         (0..LANES)
             .filter(move |lane| met >> lane & 1 == 1 && balls[*lane] != u32::MAX)
             .map(move |lane| balls[lane])
-    }
-}
-
-impl Ball {
-    /// The ball along the ray, in f64; `None` where the ray misses it or leaves it behind.
-    fn chord(&self, ray: &Ray) -> Option<Chord> {
-        let direction = ray.direction.as_dvec3();
-        let to_center = self.support.center.as_dvec3() - ray.origin.as_dvec3();
-        let square = direction.length_squared();
-        let middle = to_center.dot(direction) / square;
-        let off_axis = (to_center - middle * direction).length_squared();
-        let radius = f64::from(self.support.radius);
-        // t counts in the direction's own length, unit to rounding.
-        let half_squared = |radius: f64| (radius * radius - off_axis) / square;
-        let chord = Chord {
-            middle,
-            half_squared: half_squared(radius),
-            inverse_square: square / (radius * radius),
-            strength: self.strength,
-            kernel_half_squared: if self.kernel_radius > 0.0 {
-                half_squared(self.kernel_radius)
-            } else {
-                -1.0
-            },
-        };
-        (chord.half_squared > 0.0 && chord.leave() > 0.0).then_some(chord)
     }
 }
 

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 use metaball_core::reference::Oracle;
-use metaball_core::{Camera, Kernel, Metaball, Ray, Scene, Verdict};
+use metaball_core::{Camera, Hit, HostMethod, Kernel, Metaball, Ray, Scene, Verdict};
 
 use super::random::Random;
-use crate::baseline::{Baseline, NoPolynomial};
+use crate::baseline::{Baseline, Method, NoPolynomial};
 
 fn scene(kernel: Kernel, balls: usize, spread: f32) -> Scene {
     let mut random = Random::new(7);
@@ -31,21 +31,20 @@ fn rays(distance: f32) -> Vec<Ray> {
 /// most two radii, and the rounding of t.
 fn assert_right(scene: &Scene, rays: &[Ray], least_hits: usize) {
     let traced = Baseline::build(scene, 1e-3).expect("a polynomial").trace(rays);
-    let truths = Oracle::new(scene).first_hits(rays);
+    let oracle = Oracle::new(scene);
+    let truths = oracle.first_hits(rays);
     let mut hits = 0;
-    for ((truth, &t), ray) in truths.iter().zip(&traced.distances).zip(rays) {
+    for ((truth, hit), ray) in truths.iter().zip(&traced.hits).zip(rays) {
         if truth.is_ambiguous() {
             continue;
         }
-        let ours = match t {
-            f32::INFINITY => Verdict::Miss,
-            0.0 => Verdict::Inside,
-            _ => Verdict::Hit,
-        };
-        assert_eq!(ours, truth.verdict, "{ray:?}: {t} against {truth:?}");
-        if ours == Verdict::Hit {
+        assert_eq!(hit.verdict, truth.verdict, "{ray:?}: {hit:?} against {truth:?}");
+        if hit.verdict == Verdict::Hit {
             let allowed = 1e-3 + f64::from(f32::EPSILON) * truth.t;
-            assert!((f64::from(t) - truth.t).abs() <= allowed, "{t} against {truth:?}");
+            assert!((f64::from(hit.t) - truth.t).abs() <= allowed, "{hit:?} against {truth:?}");
+            let point = ray.origin.as_dvec3() + f64::from(hit.t) * ray.direction.as_dvec3();
+            let off = hit.normal.as_dvec3().distance(oracle.normal(point));
+            assert!(off < 1e-6, "a normal off by {off}: {hit:?} against {truth:?}");
             hits += 1;
         }
     }
@@ -73,17 +72,31 @@ fn the_eye_may_be_among_the_balls_and_rays_may_end() {
     assert_right(&scene, &rays(1.0), 0);
     let baseline = Baseline::build(&scene, 1e-3).expect("a polynomial");
     let short: Vec<_> = rays(8.0).into_iter().map(|ray| Ray { t_max: 1.0, ..ray }).collect();
-    assert!(baseline.trace(&short).distances.iter().all(|t| t.is_infinite()));
+    assert!(baseline.trace(&short).hits.iter().all(|hit| *hit == Hit::MISS));
 }
 
 #[test]
 fn nothing_is_a_legal_scene_and_perlin_is_refused() {
     let empty = Scene::new([], Kernel::QUARTIC, 0.4).expect("legal");
     let traced = Baseline::build(&empty, 1e-3).expect("a polynomial").trace(&rays(3.0));
-    assert!(traced.distances.iter().all(|t| t.is_infinite()));
+    assert!(traced.hits.iter().all(|hit| *hit == Hit::MISS));
     let perlin = scene(Kernel::Perlin, 3, 1.0);
     let refusal = Baseline::build(&perlin, 1e-3).expect_err("refused");
     assert_eq!(refusal, NoPolynomial { found: Kernel::Perlin });
+}
+
+/// Among other methods it finds the same, under its name.
+#[test]
+fn as_a_method_it_is_the_same() {
+    let scene = scene(Kernel::Wyvill, 120, 5.0);
+    let method = Method::new("kanamori-cpu", 1e-3);
+    let tracer = method.build(&scene).expect("a polynomial");
+    let traced = Baseline::build(&scene, 1e-3).expect("a polynomial").trace(&rays(8.0));
+    assert_eq!(tracer.picture_hits(&rays(8.0), 64), traced.hits);
+    assert!(tracer.bytes() > 120 * size_of::<Metaball>() as u64);
+    let perlin = scene.clone().with_kernel(Kernel::Perlin);
+    let refusal = method.build(&perlin).err().expect("refused");
+    assert!(refusal.to_string().starts_with("method kanamori-cpu: needed a kernel that is"));
 }
 
 /// Finer clipping takes more iterations and nothing else.

@@ -59,6 +59,22 @@ impl Gpu {
         Ok(Self::of_device(&adapter, device, queue))
     }
 
+    /// As [`Gpu::new`]; `None` on a machine that has no adapter at all, unless one is asked for by name.
+    ///
+    /// # Errors
+    /// When there are adapters and none is the one chosen, or it does not open.
+    pub fn find(choice: &AdapterChoice) -> Result<Option<Self>, GpuError> {
+        match Self::new(choice) {
+            Ok(gpu) => Ok(Some(gpu)),
+            Err(GpuError::NoAdapter { choice, found })
+                if found.is_empty() && !matches!(choice, AdapterChoice::Named(_)) =>
+            {
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
     /// Takes a device that the caller has opened, with the adapter that it was opened on. Scenes and
     /// pictures are bounded by the device's limits; passes are timed where it has timestamps. The
     /// device's handlers for uncaptured errors and for its loss are replaced: such errors are kept for

@@ -4,6 +4,7 @@ use metaball_shaders::ComposeError;
 use thiserror::Error;
 
 use super::FrameStatus;
+use crate::HostError;
 
 /// Why something was not made on a device, or not drawn.
 #[derive(Debug, Error)]
@@ -68,6 +69,9 @@ pub enum RenderError {
         /// The missing target.
         what: &'static str,
     },
+    /// A method needs an adapter, and there is none.
+    #[error("needed a graphics adapter, found none")]
+    NoAdapter,
     /// A method was used before its `build`.
     #[error("method {method}: needed a scene built before the first frame")]
     NotBuilt {
@@ -126,5 +130,15 @@ impl RenderError {
     /// may draw this one.
     pub fn is_too_large(&self) -> bool {
         matches!(self, Self::TooLarge { .. } | Self::PictureSize { .. } | Self::OutOfMemory { .. })
+    }
+}
+
+/// What a method on the CPU refuses counts as what one on the adapter does.
+impl From<HostError> for RenderError {
+    fn from(error: HostError) -> Self {
+        match error {
+            HostError::Unsupported { method, reason } => Self::Unsupported { method, reason },
+            HostError::Structure { method, source } => Self::Structure { method, source },
+        }
     }
 }

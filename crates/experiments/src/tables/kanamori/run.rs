@@ -200,7 +200,7 @@ impl WorkOfRays {
 }
 
 /// Times the baseline with the paper's threshold, and traces the reference.
-fn baseline(scene: &Scene, rays: &[Ray]) -> anyhow::Result<(CpuRun, Vec<f32>)> {
+fn baseline(scene: &Scene, rays: &[Ray]) -> anyhow::Result<(CpuRun, Vec<Hit>)> {
     let start = Instant::now();
     let published = Baseline::build(scene, 1e-3)?;
     let build_ms = milliseconds(start.elapsed());
@@ -217,19 +217,19 @@ fn baseline(scene: &Scene, rays: &[Ray]) -> anyhow::Result<(CpuRun, Vec<f32>)> {
         let mean = traced.iterations as f64 / traced.searches.max(1) as f64;
         iterations = (mean, traced.most_iterations);
     }
-    let reference = Baseline::build(scene, REFERENCE_THRESHOLD)?.trace(rays).distances;
+    let reference = Baseline::build(scene, REFERENCE_THRESHOLD)?.trace(rays).hits;
     let frame_ms = Samples::new(frames);
     Ok((CpuRun { build_ms, frame_ms, traversal_share, iterations }, reference))
 }
 
 /// The relative root mean square error of t, and the rays with another verdict.
-fn error_of_t(hits: &[Hit], reference: &[f32]) -> (Option<f64>, usize) {
+fn error_of_t(hits: &[Hit], reference: &[Hit]) -> (Option<f64>, usize) {
     let (mut squares, mut count, mut other) = (0.0, 0u32, 0);
-    for (hit, &reference) in hits.iter().zip(reference) {
-        if hit.is_hit() != reference.is_finite() {
+    for (hit, reference) in hits.iter().zip(reference) {
+        if hit.is_hit() != reference.is_hit() {
             other += 1;
-        } else if hit.is_hit() && reference > 0.0 {
-            squares += (f64::from(hit.t) / f64::from(reference) - 1.0).powi(2);
+        } else if hit.is_hit() && reference.t > 0.0 {
+            squares += (f64::from(hit.t) / f64::from(reference.t) - 1.0).powi(2);
             count += 1;
         }
     }
@@ -246,7 +246,7 @@ mod tests {
     fn errors_are_relative_and_verdicts_are_counted() {
         let at = |t| Hit { verdict: Verdict::Hit, fallback: false, t, ..Hit::MISS };
         let hits = [at(1.1), at(2.0), Hit::MISS, at(5.0), Hit::MISS];
-        let reference = [1.0, 2.0, f32::INFINITY, f32::INFINITY, 3.0];
+        let reference = [at(1.0), at(2.0), Hit::MISS, Hit::MISS, at(3.0)];
         let (error, other) = error_of_t(&hits, &reference);
         // t is an f32: 1.1 is off by 2.4e-8.
         assert!((error.expect("hits") - (0.01f64 / 2.0).sqrt()).abs() < 1e-7);
