@@ -15,10 +15,13 @@ mod stability;
 mod twins;
 
 use bench_scenes::{BenchScene, Overrides};
+use harness::canvas::Canvas;
 use harness::configuration::Configuration;
 use harness::judge::Terms;
+use harness::methods::{Method, methods};
+use harness::renderer::Renderer;
 use libtest_mimic::{Failed, Trial};
-use metaball_core::gpu::{Gpu, IsoRenderer, Targets, render};
+use metaball_core::gpu::{Gpu, IsoRenderer, Targets};
 use metaball_core::{Hit, Ray, Scene, View};
 
 use crate::machine;
@@ -73,8 +76,18 @@ fn tree_options(method: &str) -> Result<fbvh::Options, Failed> {
 }
 
 /// A renderer of a method that does not count its work.
-fn renderer(method: &str) -> Result<Box<dyn IsoRenderer>, Failed> {
+fn renderer(method: &str) -> Result<Renderer, Failed> {
     Ok(preset(method)?.renderer(false))
+}
+
+/// The same of a method that is on the adapter.
+fn on_adapter(method: &str) -> Result<Box<dyn IsoRenderer>, Failed> {
+    Ok(renderer(method)?.on_adapter().ok_or_else(|| format!("{method} is on the CPU"))?)
+}
+
+/// The methods that are on the adapter.
+fn methods_on_adapter() -> impl Iterator<Item = &'static Method> {
+    methods().iter().filter(|method| method.needs_adapter())
 }
 
 /// The scenes on which every method is tried: all small ones, and the molecule.
@@ -99,15 +112,9 @@ struct Picture {
 }
 
 /// Builds a scene and draws one frame of it.
-fn draw(
-    gpu: &Gpu,
-    renderer: &mut dyn IsoRenderer,
-    scene: &Scene,
-    view: &View,
-) -> Result<Picture, Failed> {
-    renderer.build(gpu, scene)?;
+fn draw(gpu: &Gpu, renderer: &mut Renderer, scene: &Scene, view: &View) -> Result<Picture, Failed> {
     let has_colors = scene.colors().is_some();
     let targets = Targets::new(gpu, view.width(), view.height(), has_colors, false)?;
-    render(gpu, renderer, &targets, view)?;
-    Ok(Picture { rays: targets.read_rays(gpu, view)?, hits: targets.read_hits(gpu)? })
+    let hits = Canvas::on_adapter(gpu, &targets).picture(renderer, scene, view)?;
+    Ok(Picture { rays: targets.read_rays(gpu, view)?, hits })
 }

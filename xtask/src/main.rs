@@ -17,7 +17,7 @@ cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` i
                                  animate, tables, scenes, methods; `help` lists them
 
 Both set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the
-rights to do so, they install Mesa's software one.
+rights to do so, they install Mesa's software one. With --cpu none is needed.
 ";
 
 fn main() -> ExitCode {
@@ -35,6 +35,9 @@ fn main() -> ExitCode {
         }
         // These need no adapter.
         Some("scenes" | "methods" | "score" | "diff") => run::metaball(&arguments),
+        Some(_) if arguments.iter().any(|argument| argument == "--cpu") => {
+            run::metaball(&arguments)
+        }
         Some(_) => adapter::ensure().and_then(|_| run::metaball(&arguments)),
     };
     match outcome {

@@ -21,9 +21,9 @@ use self::moved::moved;
 use self::plan::{Planned, Purpose, plan};
 use self::record::{Chart, Group, SCHEMA};
 use crate::conclusions::conclusions;
-use crate::console::{self, ProgressBar, open_adapter};
+use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any};
 use crate::extent::Extent;
-use crate::page::software_remark;
+use crate::page::cpu_remark;
 use harness::comparison::{self, compare_scene, steps};
 use harness::configuration::Configuration;
 use harness::machine::Provenance;
@@ -44,10 +44,10 @@ pub struct Options {
     /// The methods that take part; all where there are none.
     pub methods: Vec<&'static Method>,
     /// Pixels across and down; where it is left open 640 × 480, on an adapter that computes on the
-    /// CPU 320 × 240, and 64 × 48 when quick.
+    /// CPU and without an adapter 320 × 240, and 64 × 48 when quick.
     pub size: Option<(u32, u32)>,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
+    /// What to draw with; `None`: methods that need no adapter, and no others.
+    pub adapter: Option<AdapterChoice>,
     /// Folder for `chart.json` and `chart.html`.
     pub out: PathBuf,
     /// Whether to begin anew where an interrupted run left its results.
@@ -60,15 +60,18 @@ const FRAMES: Sampling = Sampling { most: 5, enough: Duration::from_secs(2) };
 /// A method whose frame took longer than this is not tried on the next, harder scene of its row.
 const TIME_LIMIT_MS: f64 = 4_000.0;
 
-/// Measures and writes the file and the page. A run that was interrupted is continued.
+/// Measures and writes the file and the page. A run that was interrupted is continued. A method that needs
+/// an adapter where there is none is reported and left out.
 ///
 /// # Errors
-/// Without an adapter, when a file cannot be written, or when nothing could be measured.
+/// When there is no such adapter, when a file cannot be written, or when nothing could be measured.
 pub fn chart(options: &Options) -> anyhow::Result<()> {
-    let gpu = open_adapter(&options.adapter)?;
     let path = options.out.join("chart.json");
     let plan = plan(options.extent, &options.scenes, &options.methods);
-    let mut chart = Chart::begin(&gpu, options);
+    let configurations = plan.iter().flat_map(|planned| &planned.configurations);
+    let gpu = open_adapter_if_any(options.adapter.as_ref(), configurations)?;
+    let gpu = gpu.as_ref();
+    let mut chart = Chart::begin(gpu, options);
     let previous = Chart::read(&path)?.filter(|previous| previous.is_like(&chart));
     let mut before = None;
     match previous {
@@ -87,7 +90,7 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
         }
         _ => {}
     }
-    chart.measure(&gpu, &plan, &path)?;
+    chart.measure(gpu, &plan, &path)?;
     chart.complete = true;
     chart.moved = before.map(|before| moved(&before, &chart));
     chart.write(&path)?;
@@ -102,11 +105,7 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
     if let Some(moved) = &chart.moved {
         console::line(&moved.to_string());
     }
-    for record in chart.groups.iter().flat_map(|group| &group.records) {
-        if let Some(reason) = &record.reason {
-            console::note(&format!("{}, {}: {reason}", record.scene, record.method));
-        }
-    }
+    note_reasons(chart.groups.iter().flat_map(|group| &group.records));
     console::line(&format!("\n{}", page.display()));
     let worked = chart.groups.iter().flat_map(|group| &group.records);
     anyhow::ensure!(
@@ -117,10 +116,10 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
 }
 
 impl Chart {
-    fn begin(gpu: &Gpu, options: &Options) -> Self {
+    fn begin(gpu: Option<&Gpu>, options: &Options) -> Self {
         let size = match options.extent {
             Extent::Quick => (64, 48),
-            Extent::Whole if gpu.report().is_software() => (320, 240),
+            Extent::Whole if gpu.is_none_or(|gpu| gpu.report().is_software()) => (320, 240),
             Extent::Whole => (640, 480),
         };
         let (width, height) = options.size.unwrap_or(size);
@@ -128,10 +127,10 @@ impl Chart {
         if options.extent == Extent::Quick {
             remarks.push("Quick: scenes of a few hundred balls.".to_owned());
         }
-        remarks.extend(software_remark(gpu));
+        remarks.extend(cpu_remark(gpu));
         Self {
             provenance: Provenance::here(SCHEMA),
-            adapter: Adapter::from(gpu.report()),
+            adapter: Adapter::of(gpu),
             width,
             height,
             complete: false,
@@ -142,7 +141,7 @@ impl Chart {
     }
 
     /// Measures what is planned and not yet there, and writes the file after each scene.
-    fn measure(&mut self, gpu: &Gpu, plan: &[Planned], path: &Path) -> anyhow::Result<()> {
+    fn measure(&mut self, gpu: Option<&Gpu>, plan: &[Planned], path: &Path) -> anyhow::Result<()> {
         let options = |planned: &Planned| comparison::Options {
             configurations: planned.configurations.clone(),
             size: (self.width, self.height),
@@ -202,7 +201,7 @@ impl Chart {
 }
 
 fn group(
-    gpu: &Gpu,
+    gpu: Option<&Gpu>,
     planned: &Planned,
     options: &comparison::Options,
     progress: &ProgressBar,
@@ -247,7 +246,7 @@ fn scene(planned: &Planned) -> anyhow::Result<BenchScene> {
 
 /// The record of a configuration that was not run.
 fn skipped(
-    gpu: &Gpu,
+    gpu: Option<&Gpu>,
     bench: &BenchScene,
     options: &comparison::Options,
     configuration: &Configuration,
@@ -262,7 +261,7 @@ fn skipped(
         options: configuration.options.clone(),
         width: options.size.0,
         height: options.size.1,
-        adapter: Adapter::from(gpu.report()),
+        adapter: configuration.drawn_by(gpu),
         status: Status::Skipped,
         reason: Some(reason.to_owned()),
         measured: None,
@@ -285,7 +284,7 @@ mod tests {
             scenes: vec!["two-merging".to_owned()],
             methods: Vec::new(),
             size: Some((32, 24)),
-            adapter: AdapterChoice::Environment,
+            adapter: Some(AdapterChoice::Environment),
             out: folder.path().to_owned(),
             fresh: false,
         };
@@ -297,14 +296,14 @@ mod tests {
                 .configurations
                 .retain(|configuration| kept.contains(&configuration.to_string().as_str()));
         }
-        let mut chart = Chart::begin(&gpu, &options);
-        chart.measure(&gpu, &plan[..1], &path).expect("measured");
+        let mut chart = Chart::begin(Some(&gpu), &options);
+        chart.measure(Some(&gpu), &plan[..1], &path).expect("measured");
 
         // What is there is not measured again, and what is missing is.
         let mut resumed = Chart::read(&path).expect("readable").expect("written");
         assert!(resumed.is_like(&chart) && !resumed.complete);
         let done = resumed.groups.clone();
-        resumed.measure(&gpu, &plan, &path).expect("measured");
+        resumed.measure(Some(&gpu), &plan, &path).expect("measured");
         assert_eq!((done.len(), resumed.groups.len()), (1, 2));
         assert_eq!(resumed.groups[0], done[0]);
         for group in &resumed.groups {
@@ -324,6 +323,36 @@ mod tests {
     }
 
     #[test]
+    fn without_an_adapter_methods_on_the_cpu_are_charted_and_the_others_named() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let options = Options {
+            extent: Extent::Quick,
+            scenes: vec!["two-merging".to_owned()],
+            methods: ["fbvh", "fbvh-certified-cpu", "kanamori-cpu"].map(known).into(),
+            size: Some((32, 24)),
+            adapter: None,
+            out: folder.path().to_owned(),
+            fresh: true,
+        };
+        chart(&options).expect("charted");
+        let chart = Chart::read(&folder.path().join("chart.json")).expect("readable");
+        let chart = chart.expect("written");
+        assert!(chart.complete && chart.groups.len() > 1);
+        assert_eq!(chart.adapter, Adapter::cpu());
+        for record in chart.groups.iter().flat_map(|group| &group.records) {
+            assert_eq!(record.measured.is_some(), record.method.ends_with("-cpu"), "{record:?}");
+        }
+        let page = std::fs::read_to_string(folder.path().join("chart.html")).expect("written");
+        assert_stands_alone(&page, &["NaN"]);
+        assert!(page.contains("needed a graphics adapter, found none"));
+        assert!(page.contains("Bézier clipping on the CPU (kanamori-cpu)"));
+    }
+
+    fn known(name: &str) -> &'static Method {
+        harness::methods::find(name).expect("listed")
+    }
+
+    #[test]
     fn a_method_that_was_too_slow_is_left_out_of_harder_scenes() {
         let Some(gpu) = Gpu::for_test() else { return };
         let options = Options {
@@ -331,7 +360,7 @@ mod tests {
             scenes: Vec::new(),
             methods: Vec::new(),
             size: Some((8, 6)),
-            adapter: AdapterChoice::Environment,
+            adapter: Some(AdapterChoice::Environment),
             out: PathBuf::new(),
             fresh: true,
         };
@@ -349,8 +378,8 @@ mod tests {
             counts_work: false,
         };
         let record =
-            skipped(&gpu, &bench, &comparison, &easy.configurations[0], "not run: too slow");
-        let mut chart = Chart::begin(&gpu, &options);
+            skipped(Some(&gpu), &bench, &comparison, &easy.configurations[0], "not run: too slow");
+        let mut chart = Chart::begin(Some(&gpu), &options);
         chart.groups.push(Group {
             purpose: Purpose::Density,
             spec: easy.spec.clone(),

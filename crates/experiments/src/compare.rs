@@ -9,9 +9,9 @@ use bench_scenes::{Overrides, load};
 use metaball_core::gpu::AdapterChoice;
 
 use crate::conclusions::conclusions;
-use crate::console::{self, ProgressBar, open_adapter, table};
-use crate::page::software_remark;
-use harness::comparison::{self, SceneComparison, compare_scene, steps};
+use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any, table};
+use crate::page::cpu_remark;
+use harness::comparison::{self, compare_scene, steps};
 use harness::machine::Provenance;
 use harness::numbers::{decimal, grouped, small};
 use harness::record::{Record, Records, SCHEMA, Status};
@@ -32,28 +32,29 @@ pub struct Options {
     pub overrides: Overrides,
     /// How.
     pub comparison: comparison::Options,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
+    /// What to draw with; `None`: methods that need no adapter, and no others.
+    pub adapter: Option<AdapterChoice>,
     /// Folder for `index.html` and `records.json`.
     pub out: PathBuf,
 }
 
 /// Compares, prints a table, writes the page and the records. A scene that does not load or a method
-/// that does not build is reported and left out.
+/// that does not build is reported and left out; so is one that needs an adapter where there is none.
 ///
 /// # Errors
-/// Without an adapter, when a file cannot be written, or when nothing worked at all.
+/// When there is no such adapter, when a file cannot be written, or when nothing worked at all.
 pub fn compare(options: &Options) -> anyhow::Result<()> {
-    let gpu = open_adapter(&options.adapter)?;
+    let gpu = open_adapter_if_any(options.adapter.as_ref(), &options.comparison.configurations)?;
+    let gpu = gpu.as_ref();
 
     let mut scenes = Vec::new();
-    let mut remarks: Vec<_> = software_remark(&gpu).into_iter().collect();
+    let mut remarks: Vec<_> = cpu_remark(gpu).into_iter().collect();
     let progress = ProgressBar::new(steps(&options.comparison) * options.scenes.len() as u64);
     for (index, spec) in options.scenes.iter().enumerate() {
         progress.stage(format!("{spec}: loading"));
         let scene = load(spec, &options.overrides)
             .map_err(anyhow::Error::from)
-            .and_then(|bench| compare_scene(&gpu, &bench, &options.comparison, &progress))
+            .and_then(|bench| compare_scene(gpu, &bench, &options.comparison, &progress))
             .with_context(|| format!("scene {spec}"));
         match scene {
             Ok(scene) => scenes.push(scene),
@@ -80,8 +81,11 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
             console::line(&format!("\n{sentence}"));
         }
     }
+    note_reasons(&records.records);
     for scene in &scenes {
-        note_reasons(scene);
+        for remark in &scene.remarks {
+            console::note(&format!("{}: {remark}", scene.scene));
+        }
     }
     let page = options.out.join("index.html");
     records.write(&options.out.join("records.json"))?;
@@ -98,6 +102,7 @@ pub(crate) fn results(records: &[Record]) -> String {
         "scene",
         "balls",
         "method",
+        "on",
         "frame ms",
         "build ms",
         "missed",
@@ -118,6 +123,7 @@ pub(crate) fn results(records: &[Record]) -> String {
             record.scene.clone(),
             grouped(record.balls),
             record.method.clone(),
+            measured.map_or_else(dash, |_| record.adapter.short()),
             measured.map_or_else(dash, |measured| decimal(measured.frame_ms.median)),
             measured.map_or_else(dash, |measured| decimal(measured.build_ms)),
             accuracy.false_negative.to_string(),
@@ -133,14 +139,54 @@ pub(crate) fn results(records: &[Record]) -> String {
     table(&headings, &records.iter().filter_map(row).collect::<Vec<_>>())
 }
 
-/// Prints what the table leaves out.
-fn note_reasons(scene: &SceneComparison) {
-    for record in &scene.records {
-        if let Some(reason) = &record.reason {
-            console::note(&format!("{}, {}: {reason}", record.scene, record.method));
-        }
-    }
-    for remark in &scene.remarks {
-        console::note(&format!("{}: {remark}", scene.scene));
+#[cfg(test)]
+mod tests {
+    use harness::configuration::sweeps::presets;
+    use harness::measure::Sampling;
+    use harness::record::Processor;
+
+    use super::*;
+    use crate::testing::assert_stands_alone;
+
+    #[test]
+    fn without_an_adapter_methods_on_the_cpu_are_compared_and_the_others_named() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let comparison = comparison::Options {
+            configurations: presets(&["fbvh", "fbvh-certified-cpu", "kanamori-cpu", "illes"]),
+            size: (32, 24),
+            sampling: Sampling::exactly(2),
+            along_path: false,
+            every_pixel: false,
+            imported: Vec::new(),
+            counts_work: true,
+        };
+        let options = Options {
+            scenes: vec!["two-merging".to_owned()],
+            overrides: Overrides::default(),
+            comparison,
+            adapter: None,
+            out: folder.path().to_owned(),
+        };
+        compare(&options).expect("compared");
+        let read = |name| std::fs::read_to_string(folder.path().join(name)).expect("written");
+        let records: Records = serde_json::from_str(&read("records.json")).expect("records");
+        let drawn = |record: &&Record| record.status == Status::Ok;
+        let (drawn, left_out): (Vec<_>, Vec<_>) = records.records.iter().partition(drawn);
+        let names = |records: &[&Record]| -> Vec<_> {
+            records.iter().map(|record| record.method.clone()).collect()
+        };
+        assert_eq!(names(&drawn), ["fbvh-certified-cpu", "kanamori-cpu"]);
+        assert!(drawn.iter().all(|record| record.adapter.processor == Some(Processor::Cpu)));
+        assert_eq!(names(&left_out), ["fbvh", "illes"]);
+        let page = read("index.html");
+        assert_stands_alone(&page, &["NaN"]);
+        assert_eq!(page.matches("needed a graphics adapter, found none").count(), 2);
+        assert!(page.contains("threads, no graphics interface: fbvh-certified-cpu, kanamori-cpu"));
+        assert!(page.contains("Without a graphics adapter"));
+
+        // Where all of them need one there is nothing to compare.
+        let configurations = presets(&["fbvh"]);
+        let comparison = comparison::Options { configurations, ..options.comparison.clone() };
+        assert!(compare(&Options { comparison, ..options }).is_err());
     }
 }

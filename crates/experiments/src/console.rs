@@ -2,10 +2,13 @@
 //! error.
 
 use std::cell::Cell;
+use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
 
+use harness::configuration::Configuration;
 use harness::progress::Progress;
+use harness::record::{Adapter, Record};
 use indicatif::{HumanDuration, ProgressStyle};
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
@@ -26,6 +29,40 @@ pub fn note(text: &str) {
 pub fn open_adapter(choice: &AdapterChoice) -> anyhow::Result<Gpu> {
     let gpu = Gpu::new(choice)?;
     note(&gpu.report().to_string());
+    Ok(gpu)
+}
+
+/// Opens the adapter, if one is wanted and there is any, and prints what draws. Without it those of the
+/// configurations are left that need none, and the others are named.
+///
+/// # Errors
+/// When there are adapters and none is the one chosen, or it does not open.
+pub fn open_adapter_if_any<'a>(
+    choice: Option<&AdapterChoice>,
+    configurations: impl IntoIterator<Item = &'a Configuration>,
+) -> anyhow::Result<Option<Gpu>> {
+    let gpu = choice.map(Gpu::find).transpose()?.flatten();
+    let (mut on_cpu, mut left_out) = (BTreeSet::new(), BTreeSet::new());
+    for configuration in configurations {
+        let name = configuration.method.name;
+        if !configuration.needs_adapter() {
+            on_cpu.insert(name);
+        } else if gpu.is_none() {
+            left_out.insert(name);
+        }
+    }
+    match &gpu {
+        Some(gpu) => note(&gpu.report().to_string()),
+        None if choice.is_some() => note("adapter     none on this machine"),
+        None => note("adapter     none asked for"),
+    }
+    let list = |names: BTreeSet<&str>| names.into_iter().collect::<Vec<_>>().join(", ");
+    if !on_cpu.is_empty() {
+        note(&format!("cpu         {}: {}", Adapter::cpu(), list(on_cpu)));
+    }
+    if !left_out.is_empty() {
+        note(&format!("left out    {}: they need a graphics adapter", list(left_out)));
+    }
     Ok(gpu)
 }
 
@@ -117,6 +154,30 @@ impl Drop for ProgressBar {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// Prints why records have no result, a line for each scene and reason.
+pub fn note_reasons<'a>(records: impl IntoIterator<Item = &'a Record>) {
+    for (scene, reason, methods) in reasons(records) {
+        note(&format!("{scene}, {}: {reason}", methods.join(", ")));
+    }
+}
+
+/// Scenes and reasons, with the methods that have no result there for that reason; each once.
+fn reasons<'a>(
+    records: impl IntoIterator<Item = &'a Record>,
+) -> Vec<(&'a str, &'a str, Vec<&'a str>)> {
+    let mut reasons: Vec<(&str, &str, Vec<&str>)> = Vec::new();
+    for record in records {
+        let Some(reason) = record.reason.as_deref() else { continue };
+        let (scene, method) = (record.scene.as_str(), record.method.as_str());
+        match reasons.iter_mut().find(|known| (known.0, known.1) == (scene, reason)) {
+            Some((_, _, methods)) if methods.contains(&method) => {}
+            Some((_, _, methods)) => methods.push(method),
+            None => reasons.push((scene, reason, vec![method])),
+        }
+    }
+    reasons
 }
 
 /// Columns under their headings, the first column flush left, all others flush right.

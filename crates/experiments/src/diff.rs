@@ -95,8 +95,15 @@ fn remarks(before: &File, after: &File) -> Vec<String> {
     if before.machine != after.machine {
         remarks.push("The machines differ: times cannot be compared.".to_owned());
     }
-    let adapter = |file: &File| file.records.first().map(|record| record.adapter.clone());
-    if adapter(before) != adapter(after) {
+    let adapter = |file: &File, method: &str| {
+        let is_of = |record: &&Record| record.method == method && record.measured.is_some();
+        file.records.iter().find(is_of).map(|record| record.adapter.clone())
+    };
+    let differs = |record: &Record| {
+        let both = adapter(before, &record.method).zip(adapter(after, &record.method));
+        both.is_some_and(|(then, now)| !then.is_same(&now))
+    };
+    if after.records.iter().any(differs) {
         remarks.push("The adapters or their drivers differ: times cannot be compared.".to_owned());
     }
     remarks
@@ -211,7 +218,7 @@ fn change(
 
 #[cfg(test)]
 mod tests {
-    use harness::record::Status;
+    use harness::record::{Adapter, Processor, Status};
 
     use super::*;
     use crate::testing::measured_as;
@@ -236,6 +243,27 @@ mod tests {
         (refused.status, refused.measured) = (Status::Unsupported, None);
         let rows = changes(&before[1..], &[refused]).rows;
         assert_eq!(rows[0][3..6].join(" "), "status ok unsupported");
+    }
+
+    #[test]
+    fn times_by_another_adapter_are_not_compared() {
+        let file = |record: &Record| File {
+            commit: "abc".to_owned(),
+            machine: None,
+            records: vec![record.clone()],
+        };
+        let llvmpipe = measured_as("one", "fbvh", 10.0, 0);
+        // A file that says what the adapter computes on, and one that does not yet.
+        let mut told = llvmpipe.clone();
+        told.adapter.processor = Some(Processor::Software);
+        assert!(remarks(&file(&llvmpipe), &file(&told)).is_empty());
+        let mut other = told.clone();
+        other.adapter.driver = "another".to_owned();
+        assert_eq!(remarks(&file(&told), &file(&other)).len(), 1);
+        // Without an adapter there are no times to compare.
+        let mut left_out = llvmpipe.clone();
+        (left_out.adapter, left_out.measured) = (Adapter::none(), None);
+        assert!(remarks(&file(&llvmpipe), &file(&left_out)).is_empty());
     }
 
     #[test]

@@ -20,8 +20,7 @@ pub fn score(bench: &BenchScene, imported: &ImportedHits, every_pixel: bool) -> 
     let images = [&imported.image.hits[..]];
     let reference = Reference::of_pictures(&bench.scene, &rays, size, &images, every_pixel);
     // Nothing is drawn here.
-    let adapter = Adapter { name: "none".into(), backend: "none".into(), driver: "none".into() };
-    let record = imported.record((&bench.name, &bench.scene), &reference, adapter)?;
+    let record = imported.record((&bench.name, &bench.scene), &reference, Adapter::none())?;
     console::line(&results(&[record]));
     if !reference.is_complete() {
         console::note(&format!("compared on {}", reference.subset()));

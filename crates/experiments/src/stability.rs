@@ -11,6 +11,7 @@ mod skipping;
 
 use std::path::PathBuf;
 
+use anyhow::ensure;
 use bench_scenes::{Case, cases};
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
@@ -19,12 +20,13 @@ use self::fixture::Fixture;
 use self::outcome::Outcome;
 use self::record::{Limit, SCHEMA, Stability};
 use self::skipping::reason_to_skip;
-use crate::console::{self, ProgressBar, open_adapter, table};
+use crate::console::{self, ProgressBar, open_adapter_if_any, table};
 use crate::unfinished;
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
 use harness::machine::Provenance;
 use harness::numbers::tick;
+use harness::record::Adapter;
 use picture_files::write_atomically;
 
 /// What to try.
@@ -36,19 +38,19 @@ pub struct Options {
     pub cases: Vec<&'static Case>,
     /// Methods with their options; all when empty.
     pub methods: Vec<Configuration>,
-    /// What to draw with.
-    pub adapter: AdapterChoice,
+    /// What to draw with; `None`: methods that need no adapter, and no others.
+    pub adapter: Option<AdapterChoice>,
     /// Folder for `index.html` and `records.json`.
     pub out: PathBuf,
 }
 
 /// Tries every case on every configuration, prints the limits, writes the page and the records. What an
-/// interrupted run of the same command has done is taken over.
+/// interrupted run of the same command has done is taken over. Methods that need an adapter where there is
+/// none are reported and left out.
 ///
 /// # Errors
-/// Without an adapter, when the device fails, or when a file cannot be written.
+/// When there is no such adapter, or none of the methods can do without one, when the device fails, or when a file cannot be written.
 pub fn stability(options: &Options) -> anyhow::Result<()> {
-    let gpu = open_adapter(&options.adapter)?;
     let chosen: Vec<_> =
         if options.cases.is_empty() { cases().iter().collect() } else { options.cases.clone() };
     let methods = if options.methods.is_empty() {
@@ -56,16 +58,22 @@ pub fn stability(options: &Options) -> anyhow::Result<()> {
     } else {
         options.methods.clone()
     };
+    let gpu = open_adapter_if_any(options.adapter.as_ref(), &methods)?;
+    let gpu = gpu.as_ref();
+    let (methods, left_out): (Vec<_>, Vec<_>) =
+        methods.into_iter().partition(|method| gpu.is_some() || !method.needs_adapter());
+    ensure!(!methods.is_empty(), "needed a graphics adapter for all of these methods, found none");
 
     let mut stability = Stability {
         provenance: Provenance::here(SCHEMA),
-        adapter: gpu.report().into(),
+        adapter: Adapter::of(gpu),
+        left_out: left_out.into_iter().map(|method| method.name).collect(),
         limits: Vec::new(),
         results: Vec::new(),
     };
     let unfinished_path = options.out.join("unfinished.json");
     let left = stability.unfinished(&unfinished_path).unwrap_or_default();
-    run_cases(&gpu, options.quick, (&chosen, &methods), left, |results| {
+    run_cases(gpu, options.quick, (&chosen, &methods), left, |results| {
         stability.results = results.to_vec();
         stability.write(&unfinished_path)
     })?;
@@ -91,7 +99,7 @@ fn values(case: &Case, quick: bool) -> &'static [f64] {
 
 /// Runs all values of all cases; calls `keep` with all results after every value.
 fn run_cases(
-    gpu: &Gpu,
+    gpu: Option<&Gpu>,
     quick: bool,
     (cases, methods): (&[&'static Case], &[Configuration]),
     mut results: Vec<CaseResult>,
@@ -167,4 +175,45 @@ fn summary(stability: &Stability, cases: &[&Case], methods: &[Configuration]) ->
             &format!("\n  {}, {} = {}: {reason}", result.method, result.case, tick(result.value));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::testing::assert_stands_alone;
+
+    fn options(methods: &[&str], out: PathBuf) -> Options {
+        let is_wanted = |method: &Configuration| methods.contains(&method.name.as_str());
+        Options {
+            quick: true,
+            cases: cases().iter().filter(|case| case.name == "neck").collect(),
+            methods: stability_configurations().into_iter().filter(is_wanted).collect(),
+            adapter: None,
+            out,
+        }
+    }
+
+    #[test]
+    fn without_an_adapter_methods_on_the_cpu_are_tried_and_the_others_named() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let names = ["fbvh", "fbvh-certified-cpu", "kanamori-cpu"];
+        stability(&options(&names, folder.path().to_owned())).expect("tried");
+        let read = |name| fs::read_to_string(folder.path().join(name)).expect("written");
+        let found: Stability = serde_json::from_str(&read("records.json")).expect("records");
+        assert_eq!((found.left_out, found.adapter), (vec!["fbvh".to_owned()], Adapter::cpu()));
+        let case = cases().iter().find(|case| case.name == "neck").expect("known");
+        assert_eq!(found.results.len(), 2 * case.quick.len());
+        assert!(found.results.iter().all(|result| result.outcome == Outcome::Right));
+        let page = read("index.html");
+        assert_stands_alone(&page, &["NaN"]);
+        assert!(
+            page.contains("Left out, since they need a graphics adapter and there was none: fbvh")
+        );
+
+        let error =
+            stability(&options(&["fbvh"], folder.path().join("none"))).expect_err("none left");
+        assert!(error.to_string().contains("needed a graphics adapter"), "{error}");
+    }
 }

@@ -11,9 +11,7 @@ pub mod calibration;
 pub mod choice;
 pub mod reference_view;
 
-use metaball_core::gpu::{
-    BuildReport, Frame, FrameStatus, Gpu, IsoRenderer, RayTracer, RenderError,
-};
+use metaball_core::gpu::{Gpu, RenderError};
 use metaball_core::{Scene, View};
 
 use self::cache::{Cache, Key};
@@ -25,141 +23,101 @@ use crate::configuration::Configuration;
 /// the coarsest published root finder keeps.
 pub const MAX_ERROR: f64 = 1e-3;
 
-/// Draws with what it has chosen for the scene. Building includes choosing, whose time is not in the
-/// report of the build.
+/// Chooses for scenes.
+#[derive(Debug, Clone)]
 pub struct Auto {
     candidates: Vec<Configuration>,
-    view: View,
     max_error: f64,
     cache: Cache,
-    counting: bool,
-    chosen: Option<Chosen>,
 }
 
-struct Chosen {
-    choice: Choice,
-    renderer: Box<dyn IsoRenderer>,
+/// What was chosen for a scene, to draw it with.
+#[derive(Debug, Clone)]
+pub struct Chosen {
+    /// The configuration.
+    pub configuration: Configuration,
+    /// Why it, and not another.
+    pub choice: Choice,
     /// Whether the cache knew the choice, or why it could not keep it.
     origin: String,
 }
 
 impl Auto {
-    /// Will choose among the candidates by how they do in the view, with an error of at most
-    /// `max_error` mean support radii. The renderer that it chooses counts its work or, as when
-    /// timing, does not.
-    pub fn new(
-        candidates: Vec<Configuration>,
-        view: View,
-        max_error: f64,
-        cache: Cache,
-        counting: bool,
-    ) -> Self {
-        Self { candidates, view, max_error, cache, counting, chosen: None }
+    /// Will choose among the candidates, for an error of at most `max_error` mean support radii.
+    pub fn new(candidates: Vec<Configuration>, max_error: f64, cache: Cache) -> Self {
+        Self { candidates, max_error, cache }
     }
 
-    /// What was chosen for the scene built last.
-    pub fn choice(&self) -> Option<&Choice> {
-        self.chosen.as_ref().map(|chosen| &chosen.choice)
-    }
-
-    /// What was chosen, why, and what it expects, as names and texts.
-    pub fn account(&self) -> Vec<(&'static str, String)> {
-        let Some(chosen) = &self.chosen else { return Vec::new() };
-        let mut lines = chosen.choice.account();
-        lines.push(("choice", chosen.origin.clone()));
-        lines
-    }
-
-    fn choose(&self, gpu: &Gpu, scene: &Scene) -> Result<(Choice, String), RenderError> {
+    /// Chooses by how the candidates do on the scene in the view. Without an adapter those that need one are
+    /// left out, with that for a reason.
+    ///
+    /// # Errors
+    /// When none will do, with the reason for each; when the view cannot be drawn at all.
+    pub fn choose(
+        &self,
+        gpu: Option<&Gpu>,
+        scene: &Scene,
+        view: &View,
+    ) -> Result<Chosen, RenderError> {
         let names = self.candidates.iter().map(|configuration| configuration.name.as_str());
-        let key = Key::new(gpu, scene, &self.view, self.max_error, names);
-        let is_known = |choice: &Choice| self.configuration(choice).is_some();
-        if let Some(choice) = self.cache.find(&key).filter(is_known) {
-            return Ok((choice, "made earlier, for the same scene, view and adapter".to_owned()));
+        let key = Key::new(gpu, scene, view, self.max_error, names);
+        if let Some(choice) = self.cache.find(&key)
+            && let Some(configuration) = self.configuration(&choice)
+        {
+            let origin = "made earlier, for the same scene, view and adapter".to_owned();
+            return Ok(Chosen { configuration, choice, origin });
         }
-        let choice = calibrate(gpu, scene, &self.view, &self.candidates, self.max_error)?;
+        let choice = calibrate(gpu, scene, view, &self.candidates, self.max_error)?;
         let origin = match self.cache.keep(&key, &choice) {
             Ok(()) => "made now".to_owned(),
             Err(error) => format!("made now, and not kept: {error:#}"),
         };
-        Ok((choice, origin))
-    }
-
-    fn configuration(&self, choice: &Choice) -> Option<&Configuration> {
-        self.candidates.iter().find(|configuration| configuration.name == choice.configuration)
-    }
-
-    fn renderer(&mut self) -> Result<&mut dyn IsoRenderer, RenderError> {
-        match &mut self.chosen {
-            Some(chosen) => Ok(chosen.renderer.as_mut()),
-            None => Err(RenderError::NotBuilt { method: NAME }),
-        }
-    }
-}
-
-const NAME: &str = "auto";
-
-impl IsoRenderer for Auto {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
-    fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError> {
-        self.chosen = None;
-        let (choice, origin) = self.choose(gpu, scene)?;
         let configuration =
             self.configuration(&choice).ok_or_else(|| RenderError::Unsupported {
                 method: NAME,
                 reason: format!("needed a candidate called {}, found none", choice.configuration),
             })?;
-        let mut renderer = configuration.renderer(self.counting);
-        let report = renderer.build(gpu, scene)?;
-        self.chosen = Some(Chosen { choice, renderer, origin });
-        Ok(report)
+        Ok(Chosen { configuration, choice, origin })
     }
 
-    fn encode(&mut self, frame: &mut Frame<'_>) -> Result<(), RenderError> {
-        self.renderer()?.encode(frame)
-    }
-
-    fn frame_facts(&self, gpu: &Gpu) -> Result<Vec<(&'static str, f64)>, RenderError> {
-        self.chosen.as_ref().map_or(Ok(Vec::new()), |chosen| chosen.renderer.frame_facts(gpu))
-    }
-
-    fn frame_bytes(&self) -> u64 {
-        self.chosen.as_ref().map_or(0, |chosen| chosen.renderer.frame_bytes())
-    }
-
-    fn grow(&mut self, gpu: &Gpu, status: &FrameStatus) -> Result<bool, RenderError> {
-        self.renderer()?.grow(gpu, status)
-    }
-
-    fn ray_tracer(&mut self) -> Option<&mut dyn RayTracer> {
-        self.chosen.as_mut().and_then(|chosen| chosen.renderer.ray_tracer())
+    fn configuration(&self, choice: &Choice) -> Option<Configuration> {
+        let is_chosen = |configuration: &&Configuration| configuration.name == choice.configuration;
+        self.candidates.iter().find(is_chosen).cloned()
     }
 }
+
+impl Chosen {
+    /// What was chosen, why, and what it expects, as names and texts.
+    pub fn account(&self) -> Vec<(&'static str, String)> {
+        let mut lines = self.choice.account();
+        lines.push(("choice", self.origin.clone()));
+        lines
+    }
+}
+
+const NAME: &str = "auto";
 
 #[cfg(test)]
 mod tests {
     use bench_scenes::{BenchScene, Overrides, load};
-    use metaball_core::gpu::{Targets, render};
+    use metaball_core::gpu::Targets;
     use metaball_core::reference::Oracle;
 
     use super::*;
     use crate::auto::choice::Errors;
+    use crate::canvas::Canvas;
     use crate::configuration::sweeps::candidates;
+    use crate::measure::PreparedRenderer;
 
-    fn few() -> Vec<Configuration> {
-        let kept = ["fbvh-certified", "illes", "illes-exact"];
-        candidates()
-            .into_iter()
-            .filter(|configuration| kept.contains(&configuration.name.as_str()))
-            .collect()
+    fn auto(kept: &[&str], max_error: f64, cache: &Cache) -> Auto {
+        let is_kept = |configuration: &Configuration| kept.contains(&configuration.name.as_str());
+        Auto::new(candidates().into_iter().filter(is_kept).collect(), max_error, cache.clone())
     }
 
-    fn auto(bench: &BenchScene, max_error: f64, cache: &Cache) -> Auto {
-        let view = View::new(bench.camera, 48, 36).expect("a view");
-        Auto::new(few(), view, max_error, cache.clone(), false)
+    const ON_ADAPTER: &[&str] = &["fbvh-certified", "illes", "illes-exact"];
+
+    fn view_of(bench: &BenchScene) -> View {
+        View::new(bench.camera, 48, 36).expect("a view")
     }
 
     #[test]
@@ -168,42 +126,52 @@ mod tests {
         let bench = load("random-200", &Overrides::default()).expect("known");
         let folder = tempfile::tempdir().expect("a folder");
         let cache = Cache::at(folder.path().to_owned());
-        let mut first = auto(&bench, MAX_ERROR, &cache);
-        first.build(&gpu, &bench.scene).expect("chosen");
+        let (auto, view) = (auto(ON_ADAPTER, MAX_ERROR, &cache), view_of(&bench));
+        let choose = || auto.choose(Some(&gpu), &bench.scene, &view).expect("chosen");
+        let first = choose();
 
         let targets = Targets::new(&gpu, 48, 36, false, false).expect("targets");
-        let view = first.view.clone();
-        render(&gpu, &mut first, &targets, &view).expect("drawn");
-        let rays = targets.read_rays(&gpu, &view).expect("rays");
+        let canvas = Canvas::on_adapter(&gpu, &targets);
+        let rays = canvas.rays(&view).expect("rays");
+        let renderer = first.configuration.renderer(false);
+        let drawn =
+            PreparedRenderer::prepare(canvas, renderer, &bench.scene, &view).expect("drawn");
         let truths = Oracle::new(&bench.scene).first_hits(&rays);
-        let hits = targets.read_hits(&gpu).expect("hits");
         let errors =
-            Errors::of(truths.iter().zip(&hits), reference_view::mean_radius(&bench.scene));
+            Errors::of(truths.iter().zip(&drawn.hits), reference_view::mean_radius(&bench.scene));
         assert!(errors.keep(MAX_ERROR), "{errors:?}");
         // The cubic is out at this error: its p99 is percents of a radius.
-        let choice = first.choice().expect("chosen").clone();
+        let choice = &first.choice;
         assert!(choice.left_out.iter().any(|(name, _)| name == "illes"), "{choice:?}");
 
         // The second one finds the choice; a broken file is replaced, not believed.
-        let mut second = auto(&bench, MAX_ERROR, &cache);
-        second.build(&gpu, &bench.scene).expect("chosen");
-        assert_eq!(second.choice().expect("chosen").configuration, choice.configuration);
+        let second = choose();
+        assert_eq!(second.configuration.name, first.configuration.name);
         assert!(second.account().iter().any(|(_, text)| text.starts_with("made earlier")));
         for file in std::fs::read_dir(folder.path()).expect("made") {
             std::fs::write(file.expect("there").path(), "{ half a fi").expect("written");
         }
-        second.build(&gpu, &bench.scene).expect("chosen anew");
-        assert!(second.account().iter().any(|(_, text)| text == "made now"));
+        assert!(choose().account().iter().any(|(_, text)| text == "made now"));
     }
 
     #[test]
     fn what_nobody_keeps_is_refused_with_reasons() {
-        let Some(gpu) = Gpu::for_test() else { return };
         let bench = load("random-200", &Overrides::default()).expect("known");
-        let mut auto = auto(&bench, 1e-12, &Cache::none());
-        let error = auto.build(&gpu, &bench.scene).expect_err("f32 is coarser").to_string();
-        assert!(error.contains("1.0e-12") && error.contains("fbvh-certified: "), "{error}");
-        assert!(auto.choice().is_none() && auto.account().is_empty());
-        assert!(auto.ray_tracer().is_none());
+        let auto = auto(&["fbvh-certified-cpu"], 1e-12, &Cache::none());
+        let refused = auto.choose(None, &bench.scene, &view_of(&bench));
+        let error = refused.expect_err("f32 is coarser").to_string();
+        assert!(error.contains("1.0e-12") && error.contains("fbvh-certified-cpu: "), "{error}");
+    }
+
+    #[test]
+    fn without_an_adapter_the_cpu_is_left_to_choose_from() {
+        let bench = load("random-200", &Overrides::default()).expect("known");
+        let names = ["fbvh-certified", "fbvh-certified-cpu", "kanamori-cpu"];
+        let auto = auto(&names, MAX_ERROR, &Cache::none());
+        let chosen = auto.choose(None, &bench.scene, &view_of(&bench)).expect("two will do");
+        assert!(names[1..].contains(&chosen.configuration.name.as_str()));
+        assert!(chosen.choice.runner_up.is_some() && !chosen.configuration.needs_adapter());
+        let reason = "needed a graphics adapter, found none".to_owned();
+        assert_eq!(chosen.choice.left_out, [("fbvh-certified".to_owned(), reason)]);
     }
 }

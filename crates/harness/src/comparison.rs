@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 
 use anyhow::ensure;
 use bench_scenes::BenchScene;
-use metaball_core::gpu::{Frame, Gpu, RenderError, Shading, Targets};
-use metaball_core::{Hit, Picture, Verdict, View};
+use metaball_core::gpu::{Gpu, RenderError, Shading, Targets};
+use metaball_core::shade::{self, CpuPicture};
+use metaball_core::{Hit, Picture, Ray, Shaded, Verdict, View};
 
+use crate::canvas::Canvas;
 use crate::configuration::Configuration;
 use crate::heat::heat_map;
 use crate::imported::ImportedHits;
@@ -73,12 +75,12 @@ pub fn steps(options: &Options) -> u64 {
 }
 
 /// Compares all configurations on a scene. One that cannot build or draw has a record that says why; the
-/// others continue.
+/// others continue. Without an adapter that is true of all that need one.
 ///
 /// # Errors
 /// When the scene or the size is too much for what all methods share: the targets, or the shading.
 pub fn compare_scene(
-    gpu: &Gpu,
+    gpu: Option<&Gpu>,
     bench: &BenchScene,
     options: &Options,
     progress: &dyn Progress,
@@ -107,25 +109,28 @@ pub fn compare_scene(
 type Results = BTreeMap<usize, Result<Measured, RenderError>>;
 
 /// A method's first frame.
-struct FirstFrame {
+struct FirstFrame<'a> {
     index: usize,
-    renderer: PreparedRenderer,
+    renderer: PreparedRenderer<'a>,
     shaded: Vec<u8>,
 }
 
 /// What all configurations share on a scene.
 struct Comparer<'a> {
-    gpu: &'a Gpu,
+    gpu: Option<&'a Gpu>,
     bench: &'a BenchScene,
     options: &'a Options,
     progress: &'a dyn Progress,
     view: View,
-    targets: Targets,
+    /// Where the adapter draws, if there is one.
+    targets: Option<Targets>,
+    /// The view's rays.
+    rays: Vec<Ray>,
 }
 
 impl<'a> Comparer<'a> {
     fn new(
-        gpu: &'a Gpu,
+        gpu: Option<&'a Gpu>,
         bench: &'a BenchScene,
         options: &'a Options,
         progress: &'a dyn Progress,
@@ -142,25 +147,29 @@ impl<'a> Comparer<'a> {
         }
         let view = View::new(bench.camera, width, height)?;
         let colors = bench.scene.colors().is_some();
-        let targets = Targets::new(gpu, width, height, colors, false)?;
-        Ok(Self { gpu, bench, options, progress, view, targets })
+        let targets = gpu.map(|gpu| Targets::new(gpu, width, height, colors, false)).transpose()?;
+        let rays = Canvas::new(gpu, targets.as_ref()).rays(&view)?;
+        Ok(Self { gpu, bench, options, progress, view, targets, rays })
+    }
+
+    fn canvas(&self) -> Canvas<'_> {
+        Canvas::new(self.gpu, self.targets.as_ref())
     }
 
     /// Each method's first frame: the one to compare. It also warms the method up.
-    fn draw(&self, results: &mut Results) -> anyhow::Result<Vec<FirstFrame>> {
+    fn draw(&self, results: &mut Results) -> anyhow::Result<Vec<FirstFrame<'a>>> {
         let mut frames = Vec::new();
         for (index, configuration) in self.options.configurations.iter().enumerate() {
             self.stage(&configuration.to_string());
-            let scene = &self.bench.scene;
-            match PreparedRenderer::prepare(
-                self.gpu,
-                configuration.renderer(false),
-                scene,
-                &self.targets,
-                &self.view,
-            ) {
+            let (renderer, scene) = (configuration.renderer(false), &self.bench.scene);
+            match PreparedRenderer::prepare(self.canvas(), renderer, scene, &self.view) {
                 Ok(renderer) => {
-                    frames.push(FirstFrame { index, renderer, shaded: self.shade()? });
+                    let shaded = if configuration.needs_adapter() {
+                        self.shade_targets()?
+                    } else {
+                        self.shade(&renderer.hits)?
+                    };
+                    frames.push(FirstFrame { index, renderer, shaded });
                 }
                 Err(error) => {
                     results.insert(index, Err(error));
@@ -174,21 +183,15 @@ impl<'a> Comparer<'a> {
     /// Compares, times and counts all that drew; returns the records of what other programs drew.
     fn compare(
         &self,
-        frames: Vec<FirstFrame>,
+        frames: Vec<FirstFrame<'a>>,
         results: &mut Results,
         comparison: &mut SceneComparison,
     ) -> anyhow::Result<Vec<Record>> {
         self.stage("reference");
-        if frames.is_empty() {
-            // A frame without a method makes the rays.
-            Frame::begin(self.gpu, &self.targets, &self.view)?.finish()?;
-        }
         let imported = self.options.imported.iter().map(|imported| &imported.image.hits[..]);
         let drawn = frames.iter().map(|frame| &frame.renderer.hits[..]);
-        let reference = self.reference(&drawn.chain(imported).collect::<Vec<_>>())?;
-        // Colours, where there are any, are those of the method that drew last.
-        self.targets.write_hits(self.gpu, &reference.hits())?;
-        comparison.reference = Some(self.shade()?);
+        let reference = self.reference(&drawn.chain(imported).collect::<Vec<_>>());
+        comparison.reference = Some(self.shade(&reference.hits())?);
         self.progress.advance(1);
 
         self.stage("timing");
@@ -203,15 +206,7 @@ impl<'a> Comparer<'a> {
             let accuracy = score(&reference, &renderer.hits)?;
             let heat = encode_png(&heat_map(&reference, &renderer.hits))?;
             let result = timing.and_then(|timing| {
-                let count = || {
-                    count_work(
-                        self.gpu,
-                        configuration.renderer(true),
-                        &self.bench.scene,
-                        &self.view,
-                    )
-                };
-                let work = self.options.counts_work.then(count).transpose()?;
+                let work = if self.options.counts_work { self.count(configuration)? } else { None };
                 Ok(measured(&renderer, timing, accuracy, work))
             });
             if result.is_ok() {
@@ -236,44 +231,57 @@ impl<'a> Comparer<'a> {
     ) -> anyhow::Result<Vec<Record>> {
         let mut records = Vec::new();
         for imported in &self.options.imported {
-            self.targets.write_hits(self.gpu, &imported.image.hits)?;
             comparison.pictures.push(Pictures {
                 method: imported.name.clone(),
-                shaded: self.shade()?,
+                shaded: self.shade(&imported.image.hits)?,
                 heat: encode_png(&heat_map(reference, &imported.image.hits))?,
             });
-            let adapter = Adapter::from(self.gpu.report());
+            let adapter = Adapter::of(self.gpu);
             let view = (&self.bench.name[..], &self.bench.scene);
             records.push(imported.record(view, reference, adapter)?);
         }
         Ok(records)
     }
 
-    /// The truth along the rays that the shaders used, read back.
-    fn reference(&self, images: &[&[Hit]]) -> anyhow::Result<Reference> {
-        let rays = self.targets.read_rays(self.gpu, &self.view)?;
+    /// The truth along the rays that all methods have.
+    fn reference(&self, images: &[&[Hit]]) -> Reference {
         let (scene, size) = (&self.bench.scene, self.options.size);
-        Ok(Reference::of_pictures(scene, &rays, size, images, self.options.every_pixel))
+        Reference::of_pictures(scene, &self.rays, size, images, self.options.every_pixel)
+    }
+
+    /// The work of a method on the adapter; on the CPU nothing is counted.
+    fn count(&self, configuration: &Configuration) -> Result<Option<WorkPerRay>, RenderError> {
+        let renderer = configuration.renderer(true).on_adapter();
+        let count = |(gpu, renderer)| count_work(gpu, renderer, &self.bench.scene, &self.view);
+        self.gpu.zip(renderer).map(count).transpose()
     }
 
     fn time(
         &self,
-        renderers: &mut [PreparedRenderer],
+        renderers: &mut [PreparedRenderer<'_>],
     ) -> anyhow::Result<Vec<Result<Timing, RenderError>>> {
         let Options { sampling, size, along_path, .. } = *self.options;
         let path = if along_path { &self.bench.path[..] } else { &[] };
         let bounds = self.bench.scene.bounds();
         let views = views(&self.bench.camera, path, &bounds, size, sampling.most)?;
         let advance = || self.progress.advance(1);
-        Ok(time_all(self.gpu, renderers, &self.targets, &views, sampling.enough, advance))
+        Ok(time_all(self.canvas(), renderers, &views, sampling.enough, advance))
     }
 
-    /// What the targets hold, as a PNG.
-    fn shade(&self) -> anyhow::Result<Vec<u8>> {
-        let shading = Shading::new(self.gpu);
+    /// What the adapter has drawn, in the colours that it has blended, as a PNG.
+    fn shade_targets(&self) -> anyhow::Result<Vec<u8>> {
+        let (gpu, targets) = self.gpu.zip(self.targets.as_ref()).ok_or(RenderError::NoAdapter)?;
         let scene = &self.bench.scene;
-        let shaded = shading.draw(&self.targets, &self.view, scene, Picture::Phong)?;
+        let shaded = Shading::new(gpu).draw(targets, &self.view, scene, Picture::Phong)?;
         Ok(encode_png(&shaded.image)?)
+    }
+
+    /// Hits of the view's rays as a PNG.
+    fn shade(&self, hits: &[Hit]) -> anyhow::Result<Vec<u8>> {
+        let scene = &self.bench.scene;
+        let Shaded { image, .. } =
+            shade::draw(scene, &self.view, &self.rays, hits, CpuPicture::Phong);
+        Ok(encode_png(&image)?)
     }
 
     fn record(&self, index: usize, result: Result<Measured, RenderError>) -> Record {
@@ -296,7 +304,7 @@ impl<'a> Comparer<'a> {
             options: configuration.options.clone(),
             width,
             height,
-            adapter: Adapter::from(self.gpu.report()),
+            adapter: configuration.drawn_by(self.gpu),
             status,
             reason,
             measured,
@@ -309,7 +317,7 @@ impl<'a> Comparer<'a> {
     }
 }
 
-fn unzip(frames: Vec<FirstFrame>) -> (Vec<usize>, Vec<Vec<u8>>, Vec<PreparedRenderer>) {
+fn unzip(frames: Vec<FirstFrame<'_>>) -> (Vec<usize>, Vec<Vec<u8>>, Vec<PreparedRenderer<'_>>) {
     frames
         .into_iter()
         .map(|FirstFrame { index, renderer, shaded }| (index, shaded, renderer))
@@ -317,7 +325,7 @@ fn unzip(frames: Vec<FirstFrame>) -> (Vec<usize>, Vec<Vec<u8>>, Vec<PreparedRend
 }
 
 fn measured(
-    renderer: &PreparedRenderer,
+    renderer: &PreparedRenderer<'_>,
     timing: Timing,
     accuracy: Accuracy,
     work: Option<WorkPerRay>,
@@ -364,9 +372,11 @@ mod tests {
     use metaball_core::gpu::{BuildReport, Frame, IsoRenderer};
 
     use super::*;
+    use crate::configuration::sweeps::presets;
     use crate::judge::Stop;
     use crate::judge::promise::Promise;
     use crate::methods::{Method, methods};
+    use crate::renderer::Renderer;
     use crate::technique::{Own, Technique};
 
     /// A method that can do nothing.
@@ -392,7 +402,7 @@ mod tests {
         paper: "none",
         about: "Fails.",
         technique: Technique::Own(Own {
-            make: |_| Box::new(Unable),
+            make: |_| Renderer::Adapter(Box::new(Unable)),
             promise: Promise::Always,
             stop: Stop::Rounding,
             refuses: |_| None,
@@ -412,7 +422,7 @@ mod tests {
             imported: Vec::new(),
             counts_work: true,
         };
-        let comparison = compare_scene(&gpu, &bench, &options, &()).expect("compared");
+        let comparison = compare_scene(Some(&gpu), &bench, &options, &()).expect("compared");
         let [unable, able] = &comparison.records[..] else { panic!("two records") };
         assert_eq!((unable.method.as_str(), unable.status), ("unable", Status::Unsupported));
         assert_eq!(unable.reason.as_deref(), Some("method unable: needs more"));
@@ -423,6 +433,45 @@ mod tests {
         assert!(measured.accuracy.oracle_hits > 0);
         assert!(measured.work.is_some_and(|work| work.balls_per_ray > 0.0));
         assert!(comparison.reference.is_some() && comparison.pictures.len() == 1);
+    }
+
+    /// The rays of those on the CPU are the adapter's where there is one, and the view's own where there is
+    /// none; what they find is right along either.
+    #[test]
+    fn those_on_the_cpu_take_part_with_an_adapter_and_without() {
+        let bench = load("colors-100", &Overrides::default()).expect("known");
+        let names = ["fbvh", "fbvh-certified-cpu", "kanamori-cpu"];
+        let options = Options {
+            configurations: presets(&names),
+            size: (48, 36),
+            sampling: Sampling::exactly(2),
+            along_path: false,
+            every_pixel: false,
+            imported: Vec::new(),
+            counts_work: true,
+        };
+        let without = compare_scene(None, &bench, &options, &()).expect("compared");
+        let refused = &without.records[0];
+        assert_eq!((refused.status, refused.adapter.processor), (Status::Unsupported, None));
+        assert_eq!(refused.reason.as_deref(), Some("needed a graphics adapter, found none"));
+        let with = Gpu::for_test().map(|gpu| {
+            let compared = compare_scene(Some(&gpu), &bench, &options, &()).expect("compared");
+            assert!(compared.records.iter().all(|record| record.status == Status::Ok));
+            assert_eq!(compared.pictures.len(), 3);
+            compared
+        });
+        for compared in [Some(without), with].iter().flatten() {
+            assert!(compared.reference.is_some());
+            for (record, name) in compared.records[1..].iter().zip(&names[1..]) {
+                assert_eq!((record.method.as_str(), record.status), (*name, Status::Ok));
+                assert_eq!(record.adapter, Adapter::cpu());
+                let measured = record.measured.as_ref().expect("traced");
+                assert!(measured.accuracy.oracle_hits > 0 && measured.device_bytes > 0);
+                assert_eq!(measured.accuracy.wrong_verdicts(), 0, "{name}");
+                assert_eq!(measured.work, None, "nothing is counted on the CPU");
+                assert_eq!(measured.passes.keys().collect::<Vec<_>>(), ["cpu:trace"]);
+            }
+        }
     }
 
     #[test]
@@ -438,7 +487,7 @@ mod tests {
             imported: Vec::new(),
             counts_work: true,
         };
-        let comparison = compare_scene(&gpu, &bench, &options, &()).expect("compared");
+        let comparison = compare_scene(Some(&gpu), &bench, &options, &()).expect("compared");
         assert_eq!(comparison.records.len(), 1);
         assert!(comparison.reference.is_none() && comparison.pictures.is_empty());
     }

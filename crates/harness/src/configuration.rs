@@ -6,9 +6,11 @@ pub mod variants;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use metaball_core::gpu::IsoRenderer;
+use metaball_core::gpu::Gpu;
 
 use crate::methods::Method;
+use crate::record::Adapter;
+use crate::renderer::Renderer;
 use crate::technique::Technique;
 
 /// A method with its options set.
@@ -50,8 +52,22 @@ impl Configuration {
 
     /// A renderer without a scene, under the method's name. It counts its work or, as when timing,
     /// does not.
-    pub fn renderer(&self, counting: bool) -> Box<dyn IsoRenderer> {
+    pub fn renderer(&self, counting: bool) -> Renderer {
         self.technique.renderer(self.method.name, counting)
+    }
+
+    /// Whether it draws nothing without an adapter.
+    pub fn needs_adapter(&self) -> bool {
+        self.method.needs_adapter()
+    }
+
+    /// What it is drawn by: the adapter, or the CPU where it needs none.
+    pub fn drawn_by(&self, gpu: Option<&Gpu>) -> Adapter {
+        match (self.needs_adapter(), gpu) {
+            (true, None) => Adapter::none(),
+            (true, Some(_)) => Adapter::of(gpu),
+            (false, _) => Adapter::cpu(),
+        }
     }
 }
 

@@ -89,8 +89,8 @@ mod tests {
         let scored = |image: &HitImage| {
             let (name, file) = ("other".to_owned(), PathBuf::from("other.exr"));
             let imported = ImportedHits { name, file, image: image.clone() };
-            let adapter = Adapter { name: "a".into(), backend: "b".into(), driver: "d".into() };
-            let record = imported.record(("two-merging", &bench.scene), &reference, adapter);
+            let record =
+                imported.record(("two-merging", &bench.scene), &reference, Adapter::none());
             record.expect("of this size").scored.expect("scored").accuracy
         };
         let accuracy = scored(&image);

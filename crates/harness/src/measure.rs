@@ -7,17 +7,19 @@ use std::time::Duration;
 use metaball_core::gpu::{self, BuildReport, FrameReport, Gpu, IsoRenderer, RenderError, Targets};
 use metaball_core::{Aabb, Camera, Hit, Scene, View, ViewError};
 
+use crate::canvas::Canvas;
 use crate::record::{Samples, WorkPerRay};
+use crate::renderer::{Built, Renderer};
 use crate::stats::median;
 
 /// A renderer that has built its structure for a scene and drawn it once: warm, and with buffers as
 /// large as its first frame needed.
-pub struct PreparedRenderer {
+pub struct PreparedRenderer<'s> {
     /// What building took.
     pub build: BuildReport,
     /// What it found in the frame drawn last apart from timing, row by row from the top left.
     pub hits: Vec<Hit>,
-    renderer: Box<dyn IsoRenderer>,
+    built: Built<'s>,
 }
 
 /// How many frames are timed.
@@ -42,57 +44,52 @@ impl Sampling {
 /// Times of complete frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timing {
-    /// Wall time of each frame, from the start of encoding to the fence.
+    /// Wall time of each frame, from the start of encoding to the fence; of a method on the CPU, that of
+    /// tracing the rays.
     pub frame_ms: Samples,
     /// Median milliseconds of each pass, over the frames that have it.
     pub passes: BTreeMap<String, f64>,
 }
 
-impl PreparedRenderer {
-    /// Builds for the scene and draws the view into the targets, which have work counters if the
-    /// renderer counts.
+impl<'s> PreparedRenderer<'s> {
+    /// Builds for the scene and draws the view. Targets of the canvas have work counters if the renderer
+    /// counts.
     ///
     /// # Errors
     /// When the renderer cannot do the scene, or its frame stays incomplete.
     pub fn prepare(
-        gpu: &Gpu,
-        mut renderer: Box<dyn IsoRenderer>,
-        scene: &Scene,
-        targets: &Targets,
+        canvas: Canvas<'_>,
+        renderer: Renderer,
+        scene: &'s Scene,
         view: &View,
     ) -> Result<Self, RenderError> {
-        let build = renderer.build(gpu, scene)?;
-        gpu::render(gpu, renderer.as_mut(), targets, view)?;
-        let hits = targets.read_hits(gpu)?;
-        Ok(Self { build, hits, renderer })
+        let (mut built, build) = renderer.build(canvas.gpu(), scene)?;
+        let drawn = canvas.draw(&mut built, view)?;
+        Ok(Self { build, hits: canvas.hits(drawn)?, built })
     }
 
-    /// Draws a frame into targets like those that it was prepared with.
+    /// Draws a frame on a canvas like the one that it was prepared with.
     ///
     /// # Errors
     /// When the frame stays incomplete, or the device fails.
-    pub fn draw(
-        &mut self,
-        gpu: &Gpu,
-        targets: &Targets,
-        view: &View,
-    ) -> Result<FrameReport, RenderError> {
-        gpu::render(gpu, self.renderer.as_mut(), targets, view)
+    pub fn draw(&mut self, canvas: Canvas<'_>, view: &View) -> Result<FrameReport, RenderError> {
+        Ok(canvas.draw(&mut self.built, view)?.report)
     }
 
-    /// Draws another view, into targets of any size: `hits` are of that one now.
+    /// Draws another view, on a canvas of any size: `hits` are of that one now.
     ///
     /// # Errors
     /// When its frame stays incomplete.
-    pub fn redraw(&mut self, gpu: &Gpu, targets: &Targets, view: &View) -> Result<(), RenderError> {
-        self.draw(gpu, targets, view)?;
-        self.hits = targets.read_hits(gpu)?;
+    pub fn redraw(&mut self, canvas: Canvas<'_>, view: &View) -> Result<(), RenderError> {
+        let drawn = canvas.draw(&mut self.built, view)?;
+        self.hits = canvas.hits(drawn)?;
         Ok(())
     }
 
-    /// Bytes that it holds on the adapter by now, for the scene and for its frames.
+    /// Bytes that it holds by now, for the scene and for its frames: on the adapter, or, on the CPU, in
+    /// main memory.
     pub fn device_bytes(&self) -> u64 {
-        self.build.device_bytes + self.renderer.frame_bytes()
+        self.build.device_bytes + self.built.frame_bytes()
     }
 }
 
@@ -100,9 +97,8 @@ impl PreparedRenderer {
 /// is so for all. A renderer that fails has an error instead of a timing and is not drawn with again, nor is one
 /// that has had `enough` of at least two frames. Calls `after_frame` for each view and renderer.
 pub fn time_all(
-    gpu: &Gpu,
-    renderers: &mut [PreparedRenderer],
-    targets: &Targets,
+    canvas: Canvas<'_>,
+    renderers: &mut [PreparedRenderer<'_>],
     views: &[View],
     enough: Duration,
     mut after_frame: impl FnMut(),
@@ -114,7 +110,7 @@ pub fn time_all(
             if let Ok(taken) = frames
                 && !(taken.wall_ms.len() >= LEAST_FRAMES && taken.total() >= enough)
             {
-                match renderer.draw(gpu, targets, view) {
+                match renderer.draw(canvas, view) {
                     Ok(report) => taken.add(report.wall, &report.passes),
                     Err(error) => *frames = Err(error),
                 }

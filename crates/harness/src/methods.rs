@@ -4,9 +4,10 @@ use std::sync::OnceLock;
 
 use fbvh::{Kind, Options, SecantSearch};
 use illes_fraglist::{Gather, Piece};
-use metaball_core::gpu::IsoRenderer;
+use kanamori_peel::CLIPPING_THRESHOLD;
 use thiserror::Error;
 
+use crate::renderer::Renderer;
 use crate::technique::Technique;
 
 /// A method that can be compared.
@@ -24,9 +25,10 @@ pub struct Method {
     pub technique: Technique,
 }
 
-/// What is compared unless other methods are named: the published ones, and the one that is never
-/// wrong.
-pub const HEADLINERS: &[&str] = &["bvh", "fbvh", "fbvh-certified", "kanamori", "illes"];
+/// What is compared unless other methods are named: the published ones, the one that is never wrong, and
+/// those that need no adapter.
+pub const HEADLINERS: &[&str] =
+    &["bvh", "fbvh", "fbvh-certified", "fbvh-certified-cpu", "kanamori", "kanamori-cpu", "illes"];
 
 /// The methods of this workspace, in the order of tables.
 const METHODS: &[Method] = &[
@@ -55,12 +57,28 @@ const METHODS: &[Method] = &[
         technique: Technique::Tree(Options::certified(), None),
     },
     Method {
+        name: "fbvh-certified-cpu",
+        title: "Certified FBVH on the CPU",
+        paper: Kind::Certified.source(),
+        about: "The same tree, traced on the CPU's threads in packets of eight rays, and searched in f64 \
+                where f32 cannot tell; needs no adapter.",
+        technique: Technique::TreeOnHost(Options::certified(), None),
+    },
+    Method {
         name: "kanamori",
         title: "Depth peeling",
         paper: "Kanamori et al. 2008",
         about: "Supports are drawn as rectangles and peeled layer by layer; each ray keeps a list of \
                 the balls it is in and searches every interval by Bézier clipping.",
         technique: Technique::Peeling(kanamori_peel::Options::PUBLISHED),
+    },
+    Method {
+        name: "kanamori-cpu",
+        title: "Bézier clipping on the CPU",
+        paper: "Kanamori et al. 2008, section 6; Nishita and Nakamae 1994",
+        about: "A hierarchy of supports on the CPU's threads; the intervals between a ray's sorted points \
+                are searched by Bézier clipping; needs no adapter.",
+        technique: Technique::Baseline { threshold: CLIPPING_THRESHOLD },
     },
     Method {
         name: "kanamori-robust",
@@ -166,8 +184,13 @@ pub fn find(name: &str) -> Option<&'static Method> {
 
 impl Method {
     /// A renderer without a scene. It counts its work or, as when timing, does not.
-    pub fn renderer(&self, counting: bool) -> Box<dyn IsoRenderer> {
+    pub fn renderer(&self, counting: bool) -> Renderer {
         self.technique.renderer(self.name, counting)
+    }
+
+    /// Whether it draws nothing without an adapter.
+    pub fn needs_adapter(&self) -> bool {
+        matches!(self.renderer(false), Renderer::Adapter(_))
     }
 }
 
@@ -183,8 +206,9 @@ mod tests {
                 assert_eq!(method.renderer(counting).name(), method.name);
             }
         }
-        let traced_on_cpu = methods().iter().filter(|method| method.technique.tree().is_some());
-        assert_eq!(traced_on_cpu.count(), 3);
+        let on_host = methods().iter().filter(|method| !method.needs_adapter());
+        let on_host: Vec<_> = on_host.map(|method| method.name).collect();
+        assert_eq!(on_host, ["fbvh-certified-cpu", "kanamori-cpu"]);
         assert!(find("fbvh").is_some() && find("no such method").is_none());
     }
 

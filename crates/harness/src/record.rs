@@ -6,10 +6,10 @@ use std::fmt;
 use std::path::Path;
 
 use metaball_core::Work;
-use metaball_core::gpu::AdapterReport;
+use metaball_core::gpu::{AdapterReport, Gpu};
 use serde::{Deserialize, Serialize};
 
-use crate::machine::Provenance;
+use crate::machine::{Machine, Provenance};
 use crate::output::write_json;
 use crate::score::Accuracy;
 use crate::stats::{quantile, sorted};
@@ -118,23 +118,93 @@ impl fmt::Display for Status {
     }
 }
 
-/// The adapter that drew.
+/// What drew: a graphics adapter, or the CPU.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Adapter {
-    /// As the driver names it.
+    /// As the driver names it; the model of the CPU.
     pub name: String,
-    /// `vulkan`, `metal`, `dx12`.
+    /// `vulkan`, `metal`, `dx12`; `cpu` without any of them.
     pub backend: String,
-    /// Driver and version.
+    /// Driver and version; of the CPU how many threads.
     pub driver: String,
+    /// What it computes on; missing where nothing was drawn, and in files of programs that did not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub processor: Option<Processor>,
+}
+
+/// What computes a picture in the end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Processor {
+    /// A graphics processor.
+    Gpu,
+    /// The CPU, behind the interface of a graphics adapter.
+    Software,
+    /// The CPU, without any graphics interface.
+    Cpu,
+}
+
+impl Adapter {
+    /// The CPU with the threads of rayon's current pool.
+    pub fn cpu() -> Self {
+        Self {
+            name: Machine::here().cpu,
+            backend: "cpu".to_owned(),
+            driver: format!("{} threads", rayon::current_num_threads()),
+            processor: Some(Processor::Cpu),
+        }
+    }
+
+    /// Where nothing was drawn.
+    pub fn none() -> Self {
+        let none = || "none".to_owned();
+        Self { name: none(), backend: none(), driver: none(), processor: None }
+    }
+
+    /// The adapter, or where there is none the CPU.
+    pub fn of(gpu: Option<&Gpu>) -> Self {
+        gpu.map_or_else(Self::cpu, |gpu| Self::from(gpu.report()))
+    }
+
+    /// Whether it is the same one, of two files of which one may not say what it computes on.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let processor = self.processor;
+        *self == Self { processor, ..other.clone() }
+    }
+
+    /// What computes, in a word or two; a dash where that is not known.
+    pub fn short(&self) -> String {
+        match self.processor {
+            Some(Processor::Gpu) => "GPU".to_owned(),
+            Some(Processor::Software) => format!("CPU, software {}", self.backend),
+            Some(Processor::Cpu) => "CPU".to_owned(),
+            None => "–".to_owned(),
+        }
+    }
 }
 
 impl From<&AdapterReport> for Adapter {
     fn from(report: &AdapterReport) -> Self {
+        let processor = if report.is_software() { Processor::Software } else { Processor::Gpu };
         Self {
             name: report.name.clone(),
             backend: report.backend.clone(),
             driver: report.driver.clone(),
+            processor: Some(processor),
+        }
+    }
+}
+
+impl fmt::Display for Adapter {
+    /// With all that is known of it.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, backend, driver, processor } = self;
+        match processor {
+            Some(Processor::Cpu) => write!(formatter, "{name}, {driver}, no graphics interface"),
+            Some(Processor::Software) => {
+                write!(formatter, "{name} ({backend}, {driver}), software: computes on the CPU")
+            }
+            Some(Processor::Gpu) | None => write!(formatter, "{name} ({backend}, {driver})"),
         }
     }
 }
@@ -147,10 +217,10 @@ pub struct Measured {
     pub build_ms: f64,
     /// Bytes sent to the adapter by the build.
     pub upload_bytes: u64,
-    /// Bytes that the method holds on the adapter, for the scene and for its frames; the shared targets
-    /// are not among them.
+    /// Bytes that the method holds for the scene and for its frames, on the adapter or, on the CPU, in main
+    /// memory; neither the shared targets nor the scene in main memory are among them.
     pub device_bytes: u64,
-    /// From the start of encoding to the fence.
+    /// From the start of encoding to the fence; on the CPU for tracing the rays.
     pub frame_ms: Samples,
     /// Median milliseconds of each labelled pass, summed over its repeats in a frame; `cpu:` labels
     /// are host phases.
@@ -263,6 +333,7 @@ mod tests {
                 name: "llvmpipe".to_owned(),
                 backend: "vulkan".to_owned(),
                 driver: "mesa".to_owned(),
+                processor: Some(Processor::Software),
             },
             status,
             reason: reason.map(str::to_owned),
@@ -309,7 +380,7 @@ mod tests {
             assert_eq!(json!(status), json!(status.to_string()));
         }
         assert_eq!(value["status"], json!("ok"));
-        assert_eq!(keys(&value["adapter"]), ["backend", "driver", "name"]);
+        assert_eq!(keys(&value["adapter"]), ["backend", "driver", "name", "processor"]);
         assert_eq!(keys(&value["frame_ms"]), ["median", "p25", "p75", "samples"]);
         assert_eq!(value["frame_ms"]["samples"], json!([3.0, 1.0, 2.0]));
         assert_eq!(value["passes"], json!({"trace": 0.5}));
@@ -356,6 +427,22 @@ mod tests {
         assert_eq!(keys(&value), ["command", "commit", "machine", "records", "schema"]);
         assert_eq!(value["records"][1]["status"], json!("unsupported"));
         assert_eq!(value["records"][1].get("frame_ms"), None);
+    }
+
+    #[test]
+    fn what_drew_says_whether_it_is_the_cpu() {
+        let json = json!({"name": "llvmpipe", "backend": "vulkan", "driver": "mesa"});
+        let old: Adapter = serde_json::from_value(json).expect("of a file that did not say");
+        assert_eq!(
+            (old.short().as_str(), old.to_string()),
+            ("–", "llvmpipe (vulkan, mesa)".into())
+        );
+        let software = Adapter { processor: Some(Processor::Software), ..old };
+        assert_eq!(software.short(), "CPU, software vulkan");
+        assert!(software.to_string().ends_with("computes on the CPU"));
+        let cpu = Adapter::of(None);
+        assert_eq!((cpu.short().as_str(), cpu.processor), ("CPU", Some(Processor::Cpu)));
+        assert!(cpu.to_string().contains("threads"), "{cpu}");
     }
 
     #[test]

@@ -4,19 +4,27 @@
 
 use fbvh::{Kind, SecantSearch};
 use illes_fraglist::Piece;
-use metaball_core::gpu::IsoRenderer;
+use kanamori_peel::baseline;
 use metaball_core::{Kernel, Scene};
 
 use crate::judge::promise::Promise;
 use crate::judge::{Stop, Terms};
+use crate::renderer::Renderer;
 
 /// What a method does, with all its options.
 #[derive(Debug, Clone, Copy)]
 pub enum Technique {
     /// Traces a tree: those of Gourmel et al. 2010, whose leaves are searched so, or the certified tree.
     Tree(fbvh::Options, Option<SecantSearch>),
+    /// Traces such a tree on the CPU.
+    TreeOnHost(fbvh::Options, Option<SecantSearch>),
     /// Peels supports layer by layer: Kanamori et al. 2008.
     Peeling(kanamori_peel::Options),
+    /// Intersects supports and clips Bézier curves on the CPU: what Kanamori et al. 2008 compares with.
+    Baseline {
+        /// Width at which a range is a root, in parts of an interval.
+        threshold: f32,
+    },
     /// Searches tiles' lists of balls by intervals: `kanamori_peel::robust`.
     TileSearch,
     /// Gathers a list of balls for each pixel: Illés and Szécsi.
@@ -28,8 +36,9 @@ pub enum Technique {
 /// A method of another crate.
 #[derive(Debug, Clone, Copy)]
 pub struct Own {
-    /// Makes a renderer that counts its work or, as when timing, does not. Its name is the method's.
-    pub make: fn(counting: bool) -> Box<dyn IsoRenderer>,
+    /// Makes a renderer that counts its work or, as when timing, does not; on the CPU nothing is counted.
+    /// Its name is the method's.
+    pub make: fn(counting: bool) -> Renderer,
     /// Where it must be right: [`Promise::Always`], unless its paper says less.
     pub promise: Promise,
     /// How near a root it stops.
@@ -39,31 +48,44 @@ pub struct Own {
 }
 
 impl Technique {
-    /// A renderer of that name without a scene. It counts its work or, as when timing, does not.
-    pub fn renderer(&self, name: &'static str, counting: bool) -> Box<dyn IsoRenderer> {
+    /// A renderer of that name without a scene. It counts its work or, as when timing, does not; on the CPU
+    /// nothing is counted.
+    pub fn renderer(&self, name: &'static str, counting: bool) -> Renderer {
         match *self {
             Self::Tree(options, search) => {
                 let renderer = fbvh::gpu::Renderer::new(name, options, counting);
-                Box::new(match search {
+                Renderer::Adapter(Box::new(match search {
                     Some(search) => renderer.with_search(search).expect("a published tree"),
                     None => renderer,
-                })
+                }))
+            }
+            Self::TreeOnHost(options, search) => {
+                let method = fbvh::host::Method::new(name, options);
+                Renderer::Host(Box::new(match search {
+                    Some(search) => method.with_search(search).expect("a published tree"),
+                    None => method,
+                }))
             }
             Self::Peeling(options) => {
-                Box::new(kanamori_peel::Renderer::new(name, options, counting))
+                Renderer::Adapter(Box::new(kanamori_peel::Renderer::new(name, options, counting)))
             }
-            Self::TileSearch => Box::new(kanamori_peel::robust::Renderer::new(name, counting)),
+            Self::Baseline { threshold } => {
+                Renderer::Host(Box::new(baseline::Method::new(name, threshold.into())))
+            }
+            Self::TileSearch => {
+                Renderer::Adapter(Box::new(kanamori_peel::robust::Renderer::new(name, counting)))
+            }
             Self::Fragments(options) => {
-                Box::new(illes_fraglist::Renderer::new(name, options, counting))
+                Renderer::Adapter(Box::new(illes_fraglist::Renderer::new(name, options, counting)))
             }
             Self::Own(own) => (own.make)(counting),
         }
     }
 
-    /// The tree that it traces, which the CPU traces too, if it is one of the trees.
+    /// The tree that it traces, if it is one of the trees.
     pub fn tree(&self) -> Option<fbvh::Options> {
         match self {
-            Self::Tree(options, _) => Some(*options),
+            Self::Tree(options, _) | Self::TreeOnHost(options, _) => Some(*options),
             _ => None,
         }
     }
@@ -76,7 +98,7 @@ impl Technique {
     /// Where it must be right.
     pub fn promise(&self) -> Promise {
         match *self {
-            Self::Tree(options, _) => match options.kind() {
+            Self::Tree(options, _) | Self::TreeOnHost(options, _) => match options.kind() {
                 Kind::ModifiedBvh => Promise::ProjectionOfCover,
                 Kind::Fitted => Promise::Projection,
                 Kind::Certified => Promise::Always,
@@ -84,7 +106,8 @@ impl Technique {
             Self::Peeling(options) => {
                 Promise::Peeling { list_capacity: options.list_capacity as usize }
             }
-            Self::TileSearch => Promise::Always,
+            // Lists have no capacity, and coincident points are all kept.
+            Self::Baseline { .. } | Self::TileSearch => Promise::Always,
             Self::Fragments(options) if options.piece == Piece::Robust => Promise::Always,
             Self::Fragments(options) => {
                 Promise::Fragments { piece: options.piece, array_capacity: options.array_capacity }
@@ -96,11 +119,12 @@ impl Technique {
     /// How near a root it stops, rounding aside.
     pub fn stop(&self) -> Stop {
         match *self {
-            Self::Tree(_, Some(search)) => Stop::Residual(search.tolerance.into()),
-            Self::Tree(_, None) => Stop::Rounding,
-            // Half the threshold, times an interval of at most two radii, and ten roundings of a
-            // distance of a few radii.
-            Self::Peeling(options) => Stop::Distance(f64::from(options.threshold) + 9e-6),
+            Self::Tree(_, Some(search)) | Self::TreeOnHost(_, Some(search)) => {
+                Stop::Residual(search.tolerance.into())
+            }
+            Self::Tree(_, None) | Self::TreeOnHost(_, None) => Stop::Rounding,
+            Self::Peeling(options) => clipped(options.threshold),
+            Self::Baseline { threshold } => clipped(threshold),
             Self::TileSearch => Stop::Rounding,
             // A piece is no longer than a radius.
             Self::Fragments(_) => Stop::Distance(illes_fraglist::ROOT_TOLERANCE),
@@ -112,7 +136,7 @@ impl Technique {
     pub fn refusal(&self, scene: &Scene) -> Option<&'static str> {
         let kernel = scene.kernel();
         match self {
-            Self::Peeling(_) => kernel
+            Self::Peeling(_) | Self::Baseline { .. } => kernel
                 .degree_along_ray()
                 .is_none()
                 .then_some("needed a kernel that is a polynomial along a ray"),
@@ -122,7 +146,13 @@ impl Technique {
                 )
             }
             Self::Own(own) => (own.refuses)(kernel),
-            Self::Tree(..) | Self::TileSearch | Self::Fragments(_) => None,
+            Self::Tree(..) | Self::TreeOnHost(..) | Self::TileSearch | Self::Fragments(_) => None,
         }
     }
+}
+
+/// Where Bézier clipping stops: half the threshold, times an interval of at most two radii, and ten
+/// roundings of a distance of a few radii.
+fn clipped(threshold: f32) -> Stop {
+    Stop::Distance(f64::from(threshold) + 9e-6)
 }

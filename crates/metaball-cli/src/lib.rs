@@ -22,6 +22,7 @@ pub use harness::judge::Stop;
 pub use harness::judge::promise::Promise;
 pub use harness::methods::Method;
 use harness::methods::add_methods;
+pub use harness::renderer::Renderer;
 pub use harness::technique::{Own, Technique};
 
 use self::draw::{AnimateArgs, RenderArgs};
@@ -86,13 +87,12 @@ pub fn run() -> ExitCode {
 /// The same with methods of another crate, which join every command as those of this workspace do.
 ///
 /// ```no_run
-/// # use metaball_core::gpu::IsoRenderer;
-/// # fn renderer(counting: bool) -> Box<dyn IsoRenderer> {
+/// # fn renderer(counting: bool) -> Renderer {
 /// #     harness::methods::methods()[0].renderer(counting)
 /// # }
 /// use std::process::ExitCode;
 ///
-/// use metaball_cli::{Method, Own, Promise, Stop, Technique};
+/// use metaball_cli::{Method, Own, Promise, Renderer, Stop, Technique};
 ///
 /// const MARCH: Method = Method {
 ///     name: "march",

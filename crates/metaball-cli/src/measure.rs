@@ -38,6 +38,9 @@ pub(crate) struct CompareArgs {
     /// All methods and their variants.
     #[arg(long)]
     every_method: bool,
+    /// Only methods that need no graphics adapter: what happens anyway where there is none.
+    #[arg(long, conflicts_with_all = ["adapter", "software"])]
+    cpu: bool,
     /// Timed frames of each method on each scene; when left out five, or what fits in four seconds.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     frames: Option<u16>,
@@ -77,7 +80,8 @@ impl CompareArgs {
             imported,
             counts_work: true,
         };
-        let (overrides, adapter) = (self.shared.overrides(), self.shared.adapter.choice());
+        let overrides = self.shared.overrides();
+        let adapter = (!self.cpu).then(|| self.shared.adapter.choice());
         compare(&compare::Options {
             scenes: self.scenes,
             overrides,
@@ -169,7 +173,10 @@ pub(crate) struct ChartArgs {
     /// Begin anew where an interrupted run left its results.
     #[arg(long)]
     fresh: bool,
-    /// Pixels across and down; 640x480 when left out, 320x240 on a software adapter.
+    /// Only methods that need no graphics adapter: what happens anyway where there is none.
+    #[arg(long, conflicts_with_all = ["adapter", "software"])]
+    cpu: bool,
+    /// Pixels across and down; 640x480 when left out, 320x240 where the CPU draws.
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     size: Option<(u32, u32)>,
     /// Folder for chart.html, chart.json and chart.csv.
@@ -181,8 +188,8 @@ pub(crate) struct ChartArgs {
 
 impl ChartArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { scenes, methods, quick, fresh, size, out, adapter } = self;
-        let (extent, adapter) = (extent(quick), adapter.choice());
+        let Self { scenes, methods, quick, fresh, cpu, size, out, adapter } = self;
+        let (extent, adapter) = (extent(quick), (!cpu).then(|| adapter.choice()));
         chart(&chart::Options { extent, scenes, methods, size, adapter, out, fresh })
     }
 }
@@ -198,6 +205,9 @@ pub(crate) struct StabilityArgs {
     /// Methods and their options, separated by commas; all when left out.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = configuration_parser())]
     methods: Vec<Configuration>,
+    /// Only methods that need no graphics adapter: what happens anyway where there is none.
+    #[arg(long, conflicts_with_all = ["adapter", "software"])]
+    cpu: bool,
     /// Folder for index.html and records.json.
     #[arg(long, value_name = "DIR", default_value = "out/stability")]
     out: PathBuf,
@@ -207,8 +217,9 @@ pub(crate) struct StabilityArgs {
 
 impl StabilityArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { quick, cases, methods, out, adapter } = self;
-        stability(&stability::Options { quick, cases, methods, adapter: adapter.choice(), out })
+        let Self { quick, cases, methods, cpu, out, adapter } = self;
+        let adapter = (!cpu).then(|| adapter.choice());
+        stability(&stability::Options { quick, cases, methods, adapter, out })
     }
 }
 

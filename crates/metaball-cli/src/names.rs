@@ -12,9 +12,13 @@ pub(crate) fn method_parser() -> impl TypedValueParser<Value = &'static Method> 
     PossibleValuesParser::new(names).map(|name| find(&name).expect("only names of methods pass"))
 }
 
-/// A method by name, or `auto`.
+/// A method that draws pictures by name, or `auto`.
 pub(crate) fn drawer_parser() -> impl TypedValueParser<Value = String> {
-    let names = methods().iter().map(|method| PossibleValue::new(method.name).help(method.title));
+    let draws = |method: &&Method| method.needs_adapter() || method.technique.tree().is_some();
+    let names = methods()
+        .iter()
+        .filter(draws)
+        .map(|method| PossibleValue::new(method.name).help(method.title));
     let auto = PossibleValue::new(AUTO).help("The quickest that is right enough");
     PossibleValuesParser::new(names.chain([auto]))
 }

@@ -42,7 +42,8 @@
 //! - [`mod@reference`]: exact first hits on the CPU, for comparison.
 //! - [`HostMethod`]: what finds primary hits on the CPU, to be compared; [`HostTracer`]: what follows rays
 //!   from anywhere there, for light.
-//! - [`Picture`], [`Image`]: what pictures show, and their pixels; [`Work`]: what a pixel cost.
+//! - [`Picture`], [`Image`]: what pictures show, and their pixels; [`mod@shade`] makes them on the CPU;
+//!   [`Work`]: what a pixel cost.
 //! - With feature `gpu`, module `gpu`: adapter, frames with timed passes, buffers of hits, shading, and the
 //!   trait `IsoRenderer` that methods implement. Without it the crate depends on no graphics API.
 
@@ -59,6 +60,7 @@ mod picture;
 mod ray;
 pub mod reference;
 mod scene;
+pub mod shade;
 mod surface_color;
 mod work;
 

@@ -4,13 +4,13 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use fbvh::{Tracer, Tree};
+use metaball_core::shade::{CpuPicture, Shader};
 use metaball_core::{Hit, Scene, ValueRange, View};
 use metaball_light::DepthCue;
 use metaball_light::cpu::PathTracer;
 
 use crate::band::{Band, Planes};
 use crate::light::Lighting;
-use crate::shade::{CpuPicture, Shader};
 use crate::summary::Tally;
 use crate::{DrawOptions, Error, Method};
 
@@ -24,9 +24,16 @@ pub(crate) struct Built {
 impl Built {
     /// Builds the method's tree.
     pub(crate) fn new(method: &Method, scene: &Scene) -> Result<Self, Error> {
-        let options = method.tree().ok_or_else(|| Error::NeedsAdapter {
-            what: format!("method {}", method.name()),
-            instead: "the CPU traces bvh, fbvh, fbvh-certified".to_owned(),
+        let options = method.tree().ok_or_else(|| match method.is_on_host() {
+            false => Error::NeedsAdapter {
+                what: format!("method {}", method.name()),
+                instead: "the CPU traces bvh, fbvh, fbvh-certified".to_owned(),
+            },
+            true => Error::Option {
+                option: "method",
+                needed: "a tree, or a method on an adapter".to_owned(),
+                found: format!("{}, which is there to be compared", method.name()),
+            },
         })?;
         let start = Instant::now();
         let tree = Tree::build(scene, &options)
@@ -63,7 +70,14 @@ impl<'a> Painter<'a> {
         lighting: Option<&'a Lighting>,
     ) -> Result<Self, Error> {
         let look = match lighting {
-            None => Look::Shared(Shader::new(scene, view, CpuPicture::of(options.picture)?)),
+            None => {
+                let picture =
+                    CpuPicture::of(options.picture).ok_or_else(|| Error::NeedsAdapter {
+                        what: format!("picture {:?}", options.picture),
+                        instead: CpuPicture::CHOICE.to_owned(),
+                    })?;
+                Look::Shared(Shader::new(scene, view, picture))
+            }
             Some(lighting) => {
                 let paths = lighting.on_cpu(tracer, scene, view).ok_or_else(|| Error::Option {
                     option: "method",
@@ -277,5 +291,8 @@ mod tests {
             error.contains("kanamori") && error.ends_with("bvh, fbvh, fbvh-certified"),
             "{error}"
         );
+        let compared = harness::methods::find("kanamori-cpu").expect("listed");
+        let error = Built::new(&Method::Listed(compared.into()), &bench.scene);
+        assert!(error.expect_err("no tree").to_string().contains("there to be compared"));
     }
 }

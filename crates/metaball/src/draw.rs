@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use metaball_core::gpu::{self, Gpu, IsoRenderer, RenderError, Shading, Targets};
+use metaball_core::shade::CpuPicture;
 use metaball_core::{Camera, Hit, Image, Picture, Scene, ValueRange, View};
 use metaball_light::Film;
 use picture_files::{write_hits, write_light, write_png};
@@ -14,7 +15,6 @@ use crate::band::{Band, bands};
 use crate::certain::Certain;
 use crate::cpu::{Built, Painter};
 use crate::light::Lighting;
-use crate::shade::CpuPicture;
 use crate::summary::{Progress, Summary, Tally};
 use crate::{Backend, Error, LightOptions, Method, Viewpoint};
 
@@ -225,14 +225,16 @@ fn chosen(
 ) -> Result<Prepared, Error> {
     let mut candidates = harness::configuration::sweeps::candidates();
     candidates.retain(|configuration| {
-        options.light.is_given_by_tree(configuration.technique.tree().map(|options| options.kind()))
+        let tree = configuration.technique.tree().map(|options| options.kind());
+        configuration.needs_adapter() && options.light.is_given_by_tree(tree)
     });
-    let (cache, counts) = (choosing.cache.clone(), options.counts());
-    let mut auto =
-        harness::auto::Auto::new(candidates, view.clone(), choosing.max_error, cache, counts);
-    let build = auto.build(gpu, scene)?.structure;
-    let account = auto.account();
-    Ok(Prepared { renderer: Box::new(auto), build, account })
+    let auto = harness::auto::Auto::new(candidates, choosing.max_error, choosing.cache.clone());
+    let chosen = auto.choose(Some(gpu), scene, view)?;
+    let account = chosen.account();
+    let method = Method::Listed(chosen.configuration);
+    let mut renderer = DrawOptions { method, ..options.clone() }.renderer()?;
+    let build = renderer.build(gpu, scene)?.structure;
+    Ok(Prepared { renderer, build, account })
 }
 
 /// Draws without an adapter, in this light, if there is any.
@@ -285,6 +287,9 @@ impl DrawOptions {
 
     /// Opens what draws it.
     pub(crate) fn open(&self) -> Result<Opened, Error> {
+        if self.method.is_on_host() {
+            return Backend::Cpu.open(None);
+        }
         let needs_adapter = if self.method.tree().is_none() {
             Some(format!("method {}", self.method.name()))
         } else if !self.is_for_cpu() {
@@ -303,7 +308,7 @@ impl DrawOptions {
 
     /// Whether the CPU draws such pictures too.
     fn is_for_cpu(&self) -> bool {
-        let shades = self.light.is_asked() || CpuPicture::of(self.picture).is_ok();
+        let shades = self.light.is_asked() || CpuPicture::of(self.picture).is_some();
         shades && self.method.tree().is_some()
     }
 
@@ -328,7 +333,7 @@ impl DrawOptions {
 
     /// A renderer of the method, without a scene.
     pub(crate) fn renderer(&self) -> Result<Box<dyn IsoRenderer>, Error> {
-        self.method.renderer(self.counts()).ok_or_else(|| Error::Option {
+        self.method.on_adapter(self.counts()).ok_or_else(|| Error::Option {
             option: "method",
             needed: "one method for all frames".to_owned(),
             found: format!("{}, which chooses for one picture", self.method.name()),
@@ -419,5 +424,21 @@ mod tests {
         };
         let error = draw(&bench.scene, &bench.camera, &options).expect_err("refused").to_string();
         assert!(error.starts_with("method auto needs a graphics adapter"), "{error}");
+    }
+
+    #[test]
+    #[cfg(feature = "harness")]
+    fn a_tree_on_the_cpu_needs_no_adapter_whatever_computes() {
+        let bench = load("two-merging", &Overrides::default()).expect("known");
+        let listed = harness::methods::find("fbvh-certified-cpu").expect("listed");
+        let options = DrawOptions {
+            method: Method::Listed(listed.into()),
+            size: (48, 36),
+            backend: Backend::Adapter(AdapterChoice::Environment),
+            ..DrawOptions::default()
+        };
+        let drawing = draw(&bench.scene, &bench.camera, &options).expect("drawn");
+        assert!(drawing.summary.computed_by.starts_with("the CPU"));
+        assert!(drawing.hits.iter().filter(|hit| hit.is_hit()).count() > 100);
     }
 }

@@ -42,7 +42,6 @@ mod error;
 mod files;
 mod light;
 mod method;
-mod shade;
 mod spool;
 mod summary;
 mod viewpoint;

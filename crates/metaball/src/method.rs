@@ -57,16 +57,27 @@ impl Method {
         }
     }
 
-    /// A renderer without a scene. It counts its work or, as when timing, does not. `None` for `auto`,
-    /// which has to see the view first.
-    pub(crate) fn renderer(&self, counting: bool) -> Option<Box<dyn IsoRenderer>> {
+    /// Whether it is on the CPU alone, whatever else there is.
+    pub(crate) fn is_on_host(&self) -> bool {
+        match self {
+            Self::Tree(_) => false,
+            #[cfg(feature = "harness")]
+            Self::Listed(configuration) => !configuration.needs_adapter(),
+            #[cfg(feature = "harness")]
+            Self::Auto(_) => false,
+        }
+    }
+
+    /// A renderer on an adapter, without a scene. It counts its work or, as when timing, does not. `None`
+    /// for methods that are on the CPU alone, and for `auto`, which has to see the view first.
+    pub(crate) fn on_adapter(&self, counting: bool) -> Option<Box<dyn IsoRenderer>> {
         match self {
             Self::Tree(options) => {
                 let name = options.kind().name();
                 Some(Box::new(fbvh::gpu::Renderer::new(name, *options, counting)))
             }
             #[cfg(feature = "harness")]
-            Self::Listed(configuration) => Some(configuration.renderer(counting)),
+            Self::Listed(configuration) => configuration.renderer(counting).on_adapter(),
             #[cfg(feature = "harness")]
             Self::Auto(_) => None,
         }

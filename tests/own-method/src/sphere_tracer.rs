@@ -30,7 +30,7 @@ const MOST_BALLS: usize = 1_000;
 const BUDGET: u32 = 7_000;
 
 /// A step is no longer than this part of the smallest radius.
-const REACH: f32 = 0.25;
+pub const REACH: f32 = 0.25;
 
 const NAME: &str = "sphere-tracer";
 

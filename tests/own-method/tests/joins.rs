@@ -1,4 +1,4 @@
-//! The method takes part in every command, as those of the workspace do. Needs an adapter.
+//! The methods take part in every command, as those of the workspace do. One needs an adapter, one none.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -67,6 +67,31 @@ fn it_is_compared_and_right() {
     }
     let page = std::fs::read_to_string(out.join("index.html")).expect("written");
     assert!(page.contains("Sphere tracing"));
+}
+
+#[test]
+fn its_twin_on_the_cpu_is_compared_and_right_without_an_adapter() {
+    let methods = ["--cpu", "--methods", "sphere-tracer,sphere-tracer-cpu,kanamori-cpu"];
+    let scenes = ["compare", "two-merging", "colors-100", "--size", "64x48", "--frames", "1"];
+    let out = run("compare-cpu", &[&scenes[..], &methods].concat());
+    let file = read(&out.join("records.json"));
+    let mut found = Vec::new();
+    records(&file, "sphere-tracer-cpu", &mut found);
+    assert_eq!(found.len(), 2);
+    for record in found {
+        assert_eq!(
+            (&record["status"], &record["adapter"]["processor"]),
+            (&"ok".into(), &"cpu".into())
+        );
+        assert!(record["accuracy"]["oracle_hits"].as_u64() > Some(100));
+        assert_eq!(wrong(record), 0, "{record}");
+    }
+    let mut left_out = Vec::new();
+    records(&file, "sphere-tracer", &mut left_out);
+    assert_eq!(left_out.len(), 2);
+    for record in left_out {
+        assert_eq!(record["reason"], "needed a graphics adapter, found none");
+    }
 }
 
 #[test]

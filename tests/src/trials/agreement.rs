@@ -4,9 +4,10 @@
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
 use harness::judge::Findings;
+use harness::renderer::Renderer;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::Scene;
-use metaball_core::gpu::{Gpu, IsoRenderer, RenderError};
+use metaball_core::gpu::{Gpu, RenderError};
 
 use super::fixtures::{fixture, picture};
 use super::{on_gpu, scenes};
@@ -46,7 +47,7 @@ fn with_oracle(
 ) -> Result<(), Failed> {
     let fixture = fixture(gpu, scene)?;
     if let Some(reason) = configuration.technique.refusal(&fixture.scene.scene) {
-        return refuses(gpu, configuration.renderer(false).as_mut(), &fixture.scene.scene, reason);
+        return refuses(gpu, configuration.renderer(false), &fixture.scene.scene, reason);
     }
     pass(
         &fixture
@@ -55,13 +56,8 @@ fn with_oracle(
     )
 }
 
-fn refuses(
-    gpu: &Gpu,
-    renderer: &mut dyn IsoRenderer,
-    scene: &Scene,
-    reason: &str,
-) -> Result<(), Failed> {
-    match renderer.build(gpu, scene) {
+fn refuses(gpu: &Gpu, renderer: Renderer, scene: &Scene, reason: &str) -> Result<(), Failed> {
+    match renderer.build(Some(gpu), scene).map(|(_, report)| report) {
         Err(RenderError::Unsupported { reason: found, .. }) if found.contains(reason) => Ok(()),
         outcome => Err(format!("needed a refusal with {reason:?}, found {outcome:?}").into()),
     }

@@ -8,8 +8,9 @@ use super::agreement::pass;
 use super::fixtures::{fixture, picture};
 use super::{SIZE, draw, on_gpu, preset, renderer, terms_of};
 
-/// The method whose picture is spoilt, and a scene with enough in it to spoil.
-const METHOD: &str = "fbvh";
+/// The methods whose pictures are spoilt, on the adapter and on the CPU, and a scene with enough in it to
+/// spoil.
+const METHODS: [&str; 3] = ["fbvh", "fbvh-certified-cpu", "kanamori-cpu"];
 const SCENE: &str = "random-200";
 
 /// A way to spoil a picture.
@@ -33,20 +34,23 @@ pub(super) fn trials() -> Vec<Trial> {
             hits.pop();
         }),
     ];
-    let mut trials: Vec<_> = spoilt
-        .into_iter()
-        .map(|(name, spoil)| {
-            on_gpu(format!("canary::{name}"), move |gpu| rejects_spoilt(gpu, SCENE, METHOD, spoil))
-        })
-        .collect();
+    let mut trials = Vec::new();
+    for method in METHODS {
+        for (name, spoil) in spoilt {
+            let name = format!("canary::{name}::{method}");
+            trials.push(on_gpu(name, move |gpu| rejects_spoilt(gpu, SCENE, method, spoil)));
+        }
+        let name = format!("canary::missing_ball::{method}");
+        trials.push(on_gpu(name, move |gpu| rejects_a_missing_ball(gpu, method)));
+        let name = format!("canary::against_another_method::{method}");
+        trials.push(on_gpu(name, move |gpu| rejects_between_methods(gpu, method)));
+    }
     // Tens of roundings beside each root: the tolerance of no search excuses it.
     let sloppy: Spoil = |hits| hits.iter_mut().for_each(|hit| hit.t *= 1.0 + 3e-6);
-    for method in ["fbvh-certified", "kanamori-robust", "illes-robust"] {
+    for method in ["fbvh-certified", "fbvh-certified-cpu", "kanamori-robust", "illes-robust"] {
         let name = format!("canary::sloppy_roots::{method}");
         trials.push(on_gpu(name, move |gpu| rejects_spoilt(gpu, SCENE, method, sloppy)));
     }
-    trials.push(on_gpu("canary::missing_ball".to_owned(), rejects_a_missing_ball));
-    trials.push(on_gpu("canary::against_another_method".to_owned(), rejects_between_methods));
     trials
 }
 
@@ -68,7 +72,7 @@ pub(super) fn rejects_spoilt(
 }
 
 /// A structure that lost the ball most in view.
-fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
+fn rejects_a_missing_ball(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let fixture = fixture(gpu, SCENE)?;
     let scene = fixture.scene;
     let eye = scene.camera.eye();
@@ -78,18 +82,18 @@ fn rejects_a_missing_ball(gpu: &Gpu) -> Result<(), Failed> {
     balls.remove(0);
     let without = Scene::new(balls, scene.scene.kernel(), scene.scene.threshold())?;
 
-    let mut renderer = renderer(METHOD)?;
-    let picture = draw(gpu, renderer.as_mut(), &without, &fixture.view)?;
-    match pass(&fixture.judge.judge(&picture.hits, &terms_of(METHOD)?)) {
+    let mut renderer = renderer(method)?;
+    let picture = draw(gpu, &mut renderer, &without, &fixture.view)?;
+    match pass(&fixture.judge.judge(&picture.hits, &terms_of(method)?)) {
         Ok(()) => Err("the picture without a ball passed".into()),
         Err(_) => Ok(()),
     }
 }
 
-fn rejects_between_methods(gpu: &Gpu) -> Result<(), Failed> {
+fn rejects_between_methods(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let fixture = fixture(gpu, SCENE)?;
-    let hits = picture(gpu, SCENE, &preset(METHOD)?)?;
-    let promise = terms_of(METHOD)?.promise;
+    let hits = picture(gpu, SCENE, &preset(method)?)?;
+    let promise = terms_of(method)?.promise;
     pass(&fixture.judge.compare((&hits, promise), (&hits, promise)))?;
     let mut shifted = hits.to_vec();
     shifted.rotate_right(1);

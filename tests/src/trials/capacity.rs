@@ -12,7 +12,7 @@ use metaball_core::reference::Oracle;
 use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, View};
 
 use super::agreement::pass;
-use super::{draw, on_gpu, renderer, terms_of, tree_options};
+use super::{draw, on_adapter, on_gpu, renderer, terms_of, tree_options};
 
 pub(super) fn trials() -> Vec<Trial> {
     let dense_leaves = methods().iter().map(|method| {
@@ -40,7 +40,7 @@ fn dense_leaf(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let view = View::new(camera, 20, 15)?;
 
     let mut renderer = renderer(method)?;
-    let picture = draw(gpu, renderer.as_mut(), &scene, &view)?;
+    let picture = draw(gpu, &mut renderer, &scene, &view)?;
     let oracle = Oracle::new(&scene);
     let judge = Judge::new(&scene, &oracle, &picture.rays);
     let findings = judge.judge(&picture.hits, &terms_of(method)?);
@@ -59,7 +59,7 @@ fn divergent_rays(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let (eye, target) = (Vec3::new(1.098, 0.769, 2.197), Vec3::new(0.747, 0.689, 1.264));
     let camera = Camera::look_at(eye, target, Vec3::Y, 4.0)?;
     let view = View::new(camera, 16, 12)?;
-    let picture = draw(gpu, renderer(method)?.as_mut(), &scene, &view)?;
+    let picture = draw(gpu, &mut renderer(method)?, &scene, &view)?;
 
     let options = tree_options(method)?;
     let tree = Tree::build(&scene, &options)?;
@@ -79,7 +79,7 @@ fn divergent_rays(gpu: &Gpu, method: &str) -> Result<(), Failed> {
 /// A frame of which some ray never reports that it is finished ends as an error, after a few attempts.
 fn endless_is_an_error(gpu: &Gpu) -> Result<(), Failed> {
     let scene = load("two-merging", &Overrides::default())?.scene;
-    let mut renderer = renderer("fbvh-certified")?;
+    let mut renderer = on_adapter("fbvh-certified")?;
     renderer.build(gpu, &scene)?;
     let status = FrameStatus { unfinished: 1, needed: [0; 4] };
     for _ in 0..20 {

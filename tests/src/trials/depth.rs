@@ -30,7 +30,8 @@ pub(super) fn trials() -> Vec<Trial> {
 /// moved by a pixel do not.
 fn as_walked(gpu: &Gpu, method: &str, scene: &Scene, view: &View) -> Result<(), Failed> {
     let tree = Tree::build(scene, &tree_options(method)?)?;
-    let mut renderer = preset(method)?.renderer(true);
+    let renderer = preset(method)?.renderer(true).on_adapter();
+    let mut renderer = renderer.ok_or("nothing is counted on the CPU")?;
     renderer.build(gpu, scene)?;
     let has_colors = scene.colors().is_some();
     let targets = Targets::new(gpu, view.width(), view.height(), has_colors, true)?;

@@ -5,10 +5,11 @@ use std::hash::Hash;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use bench_scenes::BenchScene;
+use harness::canvas::Canvas;
 use harness::configuration::Configuration;
 use harness::judge::Judge;
 use libtest_mimic::Failed;
-use metaball_core::gpu::{Frame, Gpu, Targets};
+use metaball_core::gpu::{Gpu, Targets};
 use metaball_core::reference::Oracle;
 use metaball_core::{Hit, View};
 
@@ -29,10 +30,8 @@ pub(super) fn fixture(gpu: &Gpu, scene: &'static str) -> Result<Arc<Fixture>, Fa
         let scene: &'static BenchScene = Box::leak(Box::new(load(scene)?));
         let oracle: &'static Oracle<'_> = Box::leak(Box::new(Oracle::new(&scene.scene)));
         let view = view_of(scene)?;
-        // A frame without a method makes the rays.
         let targets = Targets::new(gpu, view.width(), view.height(), false, false)?;
-        Frame::begin(gpu, &targets, &view)?.finish()?;
-        let rays = Vec::leak(targets.read_rays(gpu, &view)?);
+        let rays = Vec::leak(Canvas::on_adapter(gpu, &targets).rays(&view)?);
         Ok(Fixture { scene, view, judge: Judge::new(&scene.scene, oracle, rays) })
     })
 }
@@ -47,7 +46,7 @@ pub(super) fn picture(
     let fixture = fixture(gpu, scene)?;
     PICTURES.get((scene, configuration.name.clone()), || {
         let mut renderer = configuration.renderer(false);
-        let picture = draw(gpu, renderer.as_mut(), &fixture.scene.scene, &fixture.view)?;
+        let picture = draw(gpu, &mut renderer, &fixture.scene.scene, &fixture.view)?;
         if picture.rays != fixture.judge.rays() {
             return Err("two frames of one view have different rays".into());
         }

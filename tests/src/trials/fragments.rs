@@ -59,7 +59,7 @@ fn overlap_beyond_capacity(gpu: &Gpu, method: &str, is_marked: bool) -> Result<(
     let case = cases.find(|known| known.name == "overlapping").ok_or("no such case")?;
     let scene = case.scene(65.0)?;
     let mut renderer = renderer(method)?;
-    let drawn = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
+    let drawn = draw(gpu, &mut renderer, &scene.scene, &view_of(&scene)?)?;
     let oracle = Oracle::new(&scene.scene);
     let judge = Judge::new(&scene.scene, &oracle, &drawn.rays);
     pass(&judge.judge(&drawn.hits, &terms_of(method)?))?;

@@ -28,8 +28,8 @@ fn twice_the_same(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let scene = load("random-200")?;
     let view = view_of(&scene)?;
     let mut renderer = renderer(method)?;
-    let first = draw(gpu, renderer.as_mut(), &scene.scene, &view)?;
-    let second = draw(gpu, renderer.as_mut(), &scene.scene, &view)?;
+    let first = draw(gpu, &mut renderer, &scene.scene, &view)?;
+    let second = draw(gpu, &mut renderer, &scene.scene, &view)?;
     let differing = first.hits.iter().zip(&second.hits).filter(|(a, b)| a != b).count();
     if differing > 0 {
         return Err(format!("{differing} of {} pixels differ", first.hits.len()).into());
@@ -49,8 +49,8 @@ fn behind_a_wall(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let walled = open.clone().with_opaque_distance(wall)?;
 
     let mut renderer = renderer(method)?;
-    let without = draw(gpu, renderer.as_mut(), &scene.scene, &open)?;
-    let with = draw(gpu, renderer.as_mut(), &scene.scene, &walled)?;
+    let without = draw(gpu, &mut renderer, &scene.scene, &open)?;
+    let with = draw(gpu, &mut renderer, &scene.scene, &walled)?;
     let hidden = without
         .hits
         .iter()
@@ -72,7 +72,7 @@ fn pixels_to_rays(gpu: &Gpu) -> Result<(), Failed> {
     let scene = load("random-200")?;
     let view = view_of(&scene)?;
     let mut renderer = renderer(methods()[0].name)?;
-    let picture = draw(gpu, renderer.as_mut(), &scene.scene, &view)?;
+    let picture = draw(gpu, &mut renderer, &scene.scene, &view)?;
     for (pixel, ray) in picture.rays.iter().enumerate() {
         let (column, row) = (pixel as u32 % view.width(), pixel as u32 / view.width());
         let exact = view.camera().exact_direction(column, row, view.width(), view.height());

@@ -3,7 +3,8 @@
 
 use bench_scenes::Case;
 use harness::judge::{Judge, Ruling};
-use kanamori_peel::{Options, Renderer};
+use harness::renderer::Renderer;
+use kanamori_peel::Options;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
@@ -61,7 +62,7 @@ fn every_value(gpu: &Gpu, case: &Case) -> Result<(), Failed> {
     for &value in case.values {
         let made = case.scene(value)?;
         let view = View::new(made.camera, 24, 18)?;
-        let picture = draw(gpu, renderer.as_mut(), &made.scene, &view)?;
+        let picture = draw(gpu, &mut renderer, &made.scene, &view)?;
         let truths = Oracle::new(&made.scene).first_hits(&picture.rays);
         for (pixel, (truth, hit)) in truths.iter().zip(&picture.hits).enumerate() {
             let may_be_undecided =
@@ -86,7 +87,7 @@ fn special_case(
     let case = cases.find(|known| known.name == case).ok_or("no such case")?;
     let scene = case.scene(value)?;
     let mut renderer = renderer(method)?;
-    let picture = draw(gpu, renderer.as_mut(), &scene.scene, &view_of(&scene)?)?;
+    let picture = draw(gpu, &mut renderer, &scene.scene, &view_of(&scene)?)?;
     let oracle = Oracle::new(&scene.scene);
     let judge = Judge::new(&scene.scene, &oracle, &picture.rays);
     let terms = terms_of(method)?;
@@ -132,7 +133,8 @@ fn error_of_figure_1(gpu: &Gpu) -> Result<(), Failed> {
     let mut errors = Vec::new();
     for threshold in [1e-4, Options::default().threshold, 0.1] {
         let options = Options { threshold, ..Options::default() };
-        let mut renderer = Renderer::new("kanamori", options, false);
+        let peeling = kanamori_peel::Renderer::new("kanamori", options, false);
+        let mut renderer = Renderer::Adapter(Box::new(peeling));
         let picture = draw(gpu, &mut renderer, &scene.scene, &view)?;
         let truths = truths.get_or_insert_with(|| oracle.first_hits(&picture.rays));
         let both = truths.iter().zip(&picture.hits).filter(|(truth, hit)| {

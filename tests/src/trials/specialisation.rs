@@ -1,18 +1,19 @@
 //! Shaders made for a scene find what general ones find, and do not take more memory.
 
-use harness::methods::methods;
+use harness::canvas::Canvas;
+use harness::measure::PreparedRenderer;
 use libtest_mimic::{Failed, Trial};
-use metaball_core::gpu::Gpu;
+use metaball_core::gpu::{Gpu, Targets};
 use metaball_core::{Generality, Hit, Metaball, Scene, View};
 
-use super::{draw, load, on_gpu, renderer};
+use super::{load, methods_on_adapter, on_gpu, renderer};
 
 pub(super) fn trials() -> Vec<Trial> {
     let trial = |method: &'static str| {
         let name = format!("specialisation::finds_the_same::{method}");
         on_gpu(name, move |gpu| finds_the_same(gpu, method))
     };
-    methods().iter().map(|method| trial(method.name)).collect()
+    methods_on_adapter().map(|method| trial(method.name)).collect()
 }
 
 /// Equal balls of strength 1 without colours: all there is to leave out. A strength that is read instead of
@@ -22,10 +23,12 @@ fn finds_the_same(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     const ROUNDING: f32 = 1e-5;
     let bench = load("scattered:300")?;
     let view = View::new(bench.camera, 32, 24)?;
-    let mut renderer = renderer(method)?;
-    let mut drawn = |scene: &Scene| -> Result<_, Failed> {
-        let picture = draw(gpu, renderer.as_mut(), scene, &view)?;
-        Ok((picture.hits, renderer.build(gpu, scene)?.device_bytes))
+    let drawn = |scene: &Scene| -> Result<_, Failed> {
+        let has_colors = scene.colors().is_some();
+        let targets = Targets::new(gpu, view.width(), view.height(), has_colors, false)?;
+        let canvas = Canvas::on_adapter(gpu, &targets);
+        let drawn = PreparedRenderer::prepare(canvas, renderer(method)?, scene, &view)?;
+        Ok((drawn.hits, drawn.build.device_bytes))
     };
     let (hits, bytes) = drawn(&bench.scene)?;
     if hits.iter().filter(|hit| hit.is_hit()).count() < 50 {

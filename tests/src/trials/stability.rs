@@ -31,7 +31,7 @@ pub(super) fn trials() -> Vec<Trial> {
 }
 
 fn is_as_stated(gpu: &Gpu, configuration: &Configuration) -> Result<(), Failed> {
-    let mut fixture = Fixture::new(gpu, [configuration.clone()]);
+    let mut fixture = Fixture::new(Some(gpu), [configuration.clone()]);
     let mut wrong = String::new();
     for case in cases() {
         for &value in case.quick {
@@ -59,7 +59,7 @@ const LARGEST: &[(&str, &[&str])] = &[
 fn is_as_stated_in_the_largest(gpu: &Gpu, name: &str, known: &[&str]) -> Result<(), Failed> {
     let configuration =
         stability_configurations().into_iter().find(|configuration| configuration.name == name);
-    let mut fixture = Fixture::new(gpu, [configuration.ok_or("no such configuration")?]);
+    let mut fixture = Fixture::new(Some(gpu), [configuration.ok_or("no such configuration")?]);
     for case in cases().iter().filter(|case| known.contains(&case.name)) {
         let most = *case.values.last().ok_or("a case without values")?;
         let needed = expected(name, case, most);
@@ -80,7 +80,7 @@ fn notices_a_broken_promise(gpu: &Gpu) -> Result<(), Failed> {
     let published = find("kanamori").ok_or("no configuration is called kanamori")?;
     let case = cases().iter().find(|case| case.name == "coincident").ok_or("no such case")?;
     let outcome = |terms| -> Result<Vec<Outcome>, Failed> {
-        let fixture = &mut Fixture::holding(gpu, [(published.clone(), terms)]);
+        let fixture = &mut Fixture::holding(Some(gpu), [(published.clone(), terms)]);
         let results: Vec<CaseResult> = fixture.run(case, 2.0, |_| None)?;
         Ok(results.iter().map(|result| result.outcome).collect())
     };

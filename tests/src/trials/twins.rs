@@ -1,16 +1,15 @@
 //! The tracers on the CPU and in WGSL are twins: along the same rays they find the same.
 
 use fbvh::{Tracer, Tree};
-use harness::methods::methods;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 
 use super::agreement::pass;
 use super::fixtures::{fixture, picture};
-use super::{on_gpu, preset, scenes, terms_of, tree_options};
+use super::{methods_on_adapter, on_gpu, preset, scenes, terms_of, tree_options};
 
 pub(super) fn trials() -> Vec<Trial> {
-    let traced = methods().iter().filter(|method| method.technique.tree().is_some());
+    let traced = methods_on_adapter().filter(|method| method.technique.tree().is_some());
     traced
         .flat_map(|method| scenes().map(move |scene| (scene, method.name)))
         .map(|(scene, method)| {

@@ -9,7 +9,7 @@ use super::record::{Chart, Group};
 use super::shortlist;
 use crate::conclusions::conclusions;
 use crate::html::escape;
-use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
+use crate::page::{self, adapter_facts, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
 use crate::plot::{Axis, Kind, Mark, Plot, Scale, Series, Style};
 use harness::configuration::label;
 use harness::machine::has_little_raster;
@@ -20,7 +20,9 @@ use harness::stats::exponent;
 
 /// The page.
 pub(super) fn page(chart: &Chart) -> String {
-    let facts = run_facts(&chart.provenance, Some(&chart.adapter))
+    let records = chart.groups.iter().flat_map(|group| &group.records);
+    let facts = run_facts(&chart.provenance)
+        + &adapter_facts(records)
         + &fact("Picture", &format!("{} × {} pixels", chart.width, chart.height));
     let mut remarks = chart.remarks.clone();
     if has_little_raster(&chart.adapter.name) {
@@ -202,7 +204,7 @@ fn growth_sections(chart: &Chart) -> String {
         let quantities: [(&str, Quantity); 3] = [
             ("frame time, ms", |measured| measured.frame_ms.median),
             ("build time, ms", |measured| measured.build_ms),
-            ("bytes on the adapter", |measured| measured.device_bytes as f64),
+            ("bytes held", |measured| measured.device_bytes as f64),
         ];
         let plots: String = quantities
             .iter()
@@ -245,7 +247,7 @@ fn density_section(chart: &Chart) -> String {
     let density = |group: &Group| group.density;
     let quantities: [(&str, Quantity); 2] = [
         ("frame time, ms", |measured| measured.frame_ms.median),
-        ("bytes on the adapter", |measured| measured.device_bytes as f64),
+        ("bytes held", |measured| measured.device_bytes as f64),
     ];
     let plots: String = quantities
         .iter()

@@ -34,8 +34,16 @@ pub struct Planned {
 
 /// What growth and density are measured of: the published families, and what is faster; methods from
 /// outside of this workspace join them.
-const GROWTH_METHODS: &[&str] =
-    &["bvh", "fbvh", "fbvh-certified", "kanamori", "illes", "illes-compute"];
+const GROWTH_METHODS: &[&str] = &[
+    "bvh",
+    "fbvh",
+    "fbvh-certified",
+    "fbvh-certified-cpu",
+    "kanamori",
+    "kanamori-cpu",
+    "illes",
+    "illes-compute",
+];
 
 /// Everything to measure, in order. `scenes` are those of the charts of error; where there are none,
 /// those of the extent. `chosen` are the methods that take part; all where there are none.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::conclusions::conclusions;
 use crate::html::{base64, escape};
-use crate::page::{self, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
+use crate::page::{self, adapter_facts, conclusion_paragraphs, fact, remark_paragraphs, run_facts};
 use harness::comparison::{Pictures, SceneComparison};
 use harness::heat::{AMBIGUOUS, ERROR_RANGE, MISS, NOT_COMPARED, SCALE, UNDECIDED, WRONG};
 use harness::methods;
@@ -35,7 +35,8 @@ fn sentences(scenes: &[SceneComparison]) -> String {
 fn facts(records: &Records) -> String {
     let first = records.records.first();
     let size = first.map(|record| format!("{} × {} pixels", record.width, record.height));
-    run_facts(&records.provenance, first.map(|record| &record.adapter))
+    run_facts(&records.provenance)
+        + &adapter_facts(&records.records)
         + &size.map_or_else(String::new, |size| fact("Picture", &size))
 }
 
@@ -45,10 +46,12 @@ fn table_rows(scene: &SceneComparison) -> String {
         let class = if index == 0 { " class=\"first\"" } else { "" };
         let _ = write!(
             rows,
-            "<tr{class}><td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td>",
+            "<tr{class}><td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td>\
+             <td class=\"text\">{}</td>",
             escape(&record.scene),
             grouped(record.balls),
-            escape(&record.method)
+            escape(&record.method),
+            escape(&record.adapter.short())
         );
         match &record.measured {
             Some(measured) => rows.push_str(&measured_cells(measured)),

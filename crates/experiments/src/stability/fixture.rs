@@ -1,15 +1,17 @@
-//! What cases are run with: the adapter, and renderers that live from scene to scene.
+//! What cases are run with: the adapter, if there is one, and renderers that live from scene to scene.
 
 use std::time::Instant;
 
 use bench_scenes::{Case, Redraw};
-use metaball_core::gpu::{Frame, Gpu, IsoRenderer, RenderError, Targets, render};
+use metaball_core::Scene;
+use metaball_core::gpu::{Gpu, RenderError, Targets};
 use metaball_core::reference::Oracle;
-use metaball_core::{Hit, Scene, View};
 
 use super::case_result::CaseResult;
+use harness::canvas::Canvas;
 use harness::configuration::Configuration;
 use harness::judge::{Judge, Terms};
+use harness::renderer::Renderer;
 
 /// Rays of a picture that are judged at most, spread evenly.
 const MOST_RAYS: usize = 900;
@@ -20,7 +22,7 @@ const LARGE_SCENE: usize = 100;
 /// Configurations with their renderers. Composing shaders takes longer than most of these pictures, so
 /// renderers live as long as they can.
 pub struct Fixture<'a> {
-    gpu: &'a Gpu,
+    gpu: Option<&'a Gpu>,
     targets: Option<Targets>,
     configurations: Vec<Tested>,
 }
@@ -29,14 +31,17 @@ pub struct Fixture<'a> {
 struct Tested {
     configuration: Configuration,
     terms: Terms,
-    renderer: Box<dyn IsoRenderer>,
+    renderer: Renderer,
     /// Whether its shaders are composed and compiled, which is no part of what a value takes.
     is_warm: bool,
 }
 
 impl<'a> Fixture<'a> {
     /// For configurations that are held to what they promise. Nothing is made yet on the adapter.
-    pub fn new(gpu: &'a Gpu, configurations: impl IntoIterator<Item = Configuration>) -> Self {
+    pub fn new(
+        gpu: Option<&'a Gpu>,
+        configurations: impl IntoIterator<Item = Configuration>,
+    ) -> Self {
         let with_terms = |configuration: Configuration| {
             let terms = configuration.technique.terms();
             (configuration, terms)
@@ -46,7 +51,7 @@ impl<'a> Fixture<'a> {
 
     /// For configurations that are held to other terms than their own.
     pub fn holding(
-        gpu: &'a Gpu,
+        gpu: Option<&'a Gpu>,
         configurations: impl IntoIterator<Item = (Configuration, Terms)>,
     ) -> Self {
         let configuration = |(configuration, terms): (Configuration, Terms)| {
@@ -76,14 +81,15 @@ impl<'a> Fixture<'a> {
             Some(Redraw::Shuffled) => bench.shuffled()?.scene,
             Some(Redraw::Same) | None => bench.scene.clone(),
         };
-        let targets = match self.targets.take() {
-            Some(made) if (made.width(), made.height()) == (view.width(), view.height()) => made,
-            _ => Targets::new(self.gpu, view.width(), view.height(), false, false)?,
+        let (width, height) = (view.width(), view.height());
+        let is_as_large = |made: &Targets| (made.width(), made.height()) == (width, height);
+        self.targets = match (self.gpu, self.targets.take().filter(is_as_large)) {
+            (Some(gpu), None) => Some(Targets::new(gpu, width, height, false, false)?),
+            (_, made) => made,
         };
-        // A frame without a method makes the rays.
-        Frame::begin(self.gpu, &targets, &view)?.finish()?;
+        let canvas = Canvas::new(self.gpu, self.targets.as_ref());
         let pixels = judged_pixels(view.pixels());
-        let rays = pick(&targets.read_rays(self.gpu, &view)?, &pixels);
+        let rays = pick(&canvas.rays(&view)?, &pixels);
         let oracle = Oracle::new(&bench.scene);
         let judge = Judge::new(&bench.scene, &oracle, &rays);
 
@@ -93,8 +99,7 @@ impl<'a> Fixture<'a> {
                 results.push(CaseResult::untried(case.name, value, &configuration.name, reason));
                 continue;
             }
-            let mut draw =
-                |scene: &Scene| draw(self.gpu, renderer.as_mut(), &targets, scene, &view);
+            let mut draw = |scene: &Scene| canvas.picture(renderer, scene, &view);
             if !*is_warm {
                 *is_warm = draw(&bench.scene).is_ok();
             }
@@ -127,7 +132,6 @@ impl<'a> Fixture<'a> {
                 *renderer = configuration.renderer(false);
             }
         }
-        self.targets = Some(targets);
         Ok(results)
     }
 }
@@ -141,18 +145,6 @@ fn is_refusal(error: &RenderError) -> bool {
             | RenderError::TooLarge { .. }
             | RenderError::Incomplete { .. }
     )
-}
-
-fn draw(
-    gpu: &Gpu,
-    renderer: &mut dyn IsoRenderer,
-    targets: &Targets,
-    scene: &Scene,
-    view: &View,
-) -> Result<Vec<Hit>, RenderError> {
-    renderer.build(gpu, scene)?;
-    render(gpu, renderer, targets, view)?;
-    targets.read_hits(gpu)
 }
 
 /// Rising indices of the pixels whose rays are judged.

@@ -107,6 +107,9 @@ const LIMITS: &[(&str, &[Limit])] = &[
         "fbvh-certified",
         &[("distance", &[(1e5, Coarse)]), ("threshold-near-zero", &[(1e-12, Reported)])],
     ),
+    // f64 all the way, but for the t that is handed out.
+    ("fbvh-certified-cpu", &[("distance", &[(1e5, Coarse)])]),
+    ("kanamori-cpu", &[("distance", &[(1e5, Coarse)])]),
     ("illes", CUBICS),
     // Section 4: a running sum that loses its digits away from the eye.
     (

@@ -9,9 +9,10 @@ use super::outcome::Outcome;
 use super::record::{Limit, Stability};
 use super::skipping::TIME_LIMIT_S;
 use crate::html::escape;
-use crate::page::{self, remark_paragraphs, run_facts};
+use crate::page::{self, adapter_fact, fact, remark_paragraphs, run_facts};
 use harness::configuration::Configuration;
 use harness::numbers::{small, tick};
+use harness::record::Processor;
 
 /// The page; needs no other file and no network.
 pub(super) fn page(
@@ -22,7 +23,7 @@ pub(super) fn page(
     let sections: String =
         cases.iter().map(|case| section(stability, case, configurations)).collect();
     let parts = [
-        ("facts", run_facts(&stability.provenance, Some(&stability.adapter))),
+        ("facts", facts(stability, configurations)),
         ("remarks", remark_paragraphs(&remarks(stability))),
         ("legend", legend()),
         ("matrix", matrix(stability, cases, configurations)),
@@ -30,6 +31,21 @@ pub(super) fn page(
         ("notes", notes(stability)),
     ];
     page::page("Where metaball ray casters fail", include_str!("page.html"), &parts)
+}
+
+/// Where it comes from, and what drew.
+fn facts(stability: &Stability, configurations: &[Configuration]) -> String {
+    let on_cpu: Vec<_> = configurations
+        .iter()
+        .filter(|configuration| !configuration.needs_adapter())
+        .map(|configuration| configuration.name.as_str())
+        .collect();
+    let on_cpu = if on_cpu.is_empty() || stability.adapter.processor == Some(Processor::Cpu) {
+        String::new()
+    } else {
+        fact("CPU", &escape(&format!("draws for {}", on_cpu.join(", "))))
+    };
+    run_facts(&stability.provenance) + &adapter_fact(&stability.adapter) + &on_cpu
 }
 
 /// How the outcomes compare with the table of stated limits.
@@ -41,6 +57,12 @@ fn remarks(stability: &Stability) -> Vec<String> {
             "{unexpected} of {} outcomes are not what the table of stated limits says; they are \
              underlined in the matrix.",
             stability.tried()
+        ));
+    }
+    if !stability.left_out.is_empty() {
+        remarks.push(format!(
+            "Left out, since they need a graphics adapter and there was none: {}.",
+            stability.left_out.join(", ")
         ));
     }
     if stability.of_outcome(Outcome::Untried).next().is_some() {

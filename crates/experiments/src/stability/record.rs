@@ -24,6 +24,9 @@ pub struct Stability {
     pub provenance: Provenance,
     /// What drew.
     pub adapter: Adapter,
+    /// Configurations that were not tried, since they need an adapter and there is none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
     /// Where each method's limits are, by case and method.
     pub limits: Vec<Limit>,
     /// Everything that was tried.
@@ -173,7 +176,8 @@ mod tests {
         let path = folder.path().join("unfinished.json");
         let run = Stability {
             provenance: Provenance::here(SCHEMA),
-            adapter: Adapter { name: "a".into(), backend: "b".into(), driver: "d".into() },
+            adapter: Adapter::none(),
+            left_out: Vec::new(),
             limits: Vec::new(),
             results: vec![result(10.0, Outcome::Right)],
         };

@@ -3,7 +3,7 @@
 use metaball_core::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
-use crate::page::{remark_paragraphs, run_facts};
+use crate::page::{adapter_fact, remark_paragraphs, run_facts};
 use crate::table::Table;
 use harness::machine::Provenance;
 use harness::record::Adapter;
@@ -30,7 +30,8 @@ impl Heading {
 
     /// The facts at the top of a page: the content of a `<dl>`.
     pub(super) fn facts(&self) -> String {
-        run_facts(&self.provenance, self.adapter.as_ref())
+        let adapter = self.adapter.as_ref().map(adapter_fact);
+        run_facts(&self.provenance) + &adapter.unwrap_or_default()
     }
 
     /// The remarks for a page.

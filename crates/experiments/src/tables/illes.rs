@@ -22,7 +22,7 @@ use self::run::{ListRun, Phases, VARIANTS};
 use self::tables::Annotated;
 use crate::console::{self, open_adapter};
 use crate::extent::Extent;
-use crate::page::software_remark;
+use crate::page::cpu_remark;
 use crate::tables::Options;
 use crate::tables::heading::Heading;
 use crate::tables::report::{Report, publish};
@@ -177,7 +177,7 @@ fn measure(gpu: &Gpu, plan: &Plan, time: Option<Duration>) -> anyhow::Result<Mea
 
     let runs: Vec<_> = table.iter().filter_map(|row| row.run.clone()).collect();
     Ok(Measurements {
-        heading: Heading::new(SCHEMA, Some(gpu), software_remark(gpu).into_iter().collect()),
+        heading: Heading::new(SCHEMA, Some(gpu), cpu_remark(Some(gpu)).into_iter().collect()),
         size: plan.size,
         growth: growth(&VARIANTS.map(|(name, ..)| name), &runs),
         table,

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use self::run::{Measured, PlannedScene, SceneForms};
 use crate::console::{ProgressBar, open_adapter};
 use crate::extent::Extent;
-use crate::page::software_remark;
+use crate::page::cpu_remark;
 use crate::table::{Column, Table};
 use crate::tables::heading::Heading;
 use crate::tables::report::{Report, publish};
@@ -28,12 +28,17 @@ fn plan(options: &Options, scenes: &[String]) -> Vec<PlannedScene> {
         Extent::Whole => (&["scattered-30k", "tornado-4k", "dam-break", "molecule"], (160, 120), 9),
     };
     let size = options.size.unwrap_or(size);
-    let methods: Vec<&Method> = HEADLINERS.iter().filter_map(|name| find(name)).collect();
+    let methods: Vec<_> = with_shaders().collect();
     let of_scene = |spec: String| {
         let planned = move |&method| PlannedScene { spec: spec.clone(), method, size, rounds };
         methods.iter().map(planned).collect::<Vec<_>>()
     };
     named_or(scenes, own).into_iter().flat_map(of_scene).collect()
+}
+
+/// The headliners that have shaders.
+fn with_shaders() -> impl Iterator<Item = &'static Method> {
+    HEADLINERS.iter().filter_map(|name| find(name)).filter(|method| method.needs_adapter())
 }
 
 /// The whole file.
@@ -77,7 +82,7 @@ impl Report for Measurements {
 
 fn measure(gpu: &Gpu, plan: &[PlannedScene]) -> anyhow::Result<Measurements> {
     let progress = ProgressBar::new(plan.iter().map(PlannedScene::steps).sum());
-    let mut remarks: Vec<_> = software_remark(gpu).into_iter().collect();
+    let mut remarks: Vec<_> = cpu_remark(Some(gpu)).into_iter().collect();
     let mut scenes = Vec::new();
     for planned in plan {
         match planned.measure(gpu, &progress) {
@@ -159,7 +164,7 @@ mod tests {
     fn a_quick_run_fills_every_row() {
         let Some(gpu) = Gpu::for_test() else { return };
         let measurements = measure(&gpu, &quick()).expect("measured");
-        assert_eq!(measurements.scenes.len(), HEADLINERS.len());
+        assert_eq!(measurements.scenes.len(), with_shaders().count());
         for scene in &measurements.scenes {
             let measured: Vec<_> =
                 scene.rows.iter().map(|row| row.result.as_ref().expect("measured")).collect();
@@ -176,7 +181,7 @@ mod tests {
         let back = read_back(&measurements);
         assert_eq!(
             (back.heading.provenance.schema.as_str(), back.scenes.len()),
-            (SCHEMA, HEADLINERS.len())
+            (SCHEMA, with_shaders().count())
         );
         let page = page::page(&measurements);
         assert_stands_alone(&page, &["/tmp"]);

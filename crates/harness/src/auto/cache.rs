@@ -15,7 +15,7 @@ use crate::output::write_json;
 use crate::record::Adapter;
 
 /// Name and version of the files' format.
-const SCHEMA: &str = "metaball-choice/1";
+const SCHEMA: &str = "metaball-choice/2";
 
 /// A folder of choices, or none.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,7 +31,10 @@ pub struct Key {
     width: u32,
     height: u32,
     max_error: String,
+    /// The adapter; the CPU where there is none.
     adapter: Adapter,
+    /// What draws for candidates that need no adapter.
+    cpu: Adapter,
     commit: String,
 }
 
@@ -46,7 +49,7 @@ impl Key {
     /// For a scene in a view. Of a view's opaque distances, where it has any, nothing is in the key:
     /// choices are made without them.
     pub fn new<'a>(
-        gpu: &Gpu,
+        gpu: Option<&Gpu>,
         scene: &Scene,
         view: &View,
         max_error: f64,
@@ -72,7 +75,8 @@ impl Key {
             width: view.width(),
             height: view.height(),
             max_error: format!("{max_error:e}"),
-            adapter: gpu.report().into(),
+            adapter: Adapter::of(gpu),
+            cpu: Adapter::cpu(),
             commit: machine::commit(),
         }
     }
@@ -136,7 +140,8 @@ mod tests {
             width: 4,
             height: 3,
             max_error: "1e-3".to_owned(),
-            adapter: Adapter { name: "a".into(), backend: "b".into(), driver: "d".into() },
+            adapter: Adapter::none(),
+            cpu: Adapter::none(),
             commit: "c".to_owned(),
         }
     }

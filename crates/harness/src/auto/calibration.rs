@@ -25,12 +25,13 @@ const SPARSE: Sampling = Sampling::exactly(2);
 const WHOLE: Sampling = Sampling { most: 4, enough: Duration::from_secs(1) };
 
 /// Chooses the quickest of the candidates for the scene in this view whose error is at most
-/// `max_error` mean support radii, with at most one wrong verdict in 10⁵ rays.
+/// `max_error` mean support radii, with at most one wrong verdict in 10⁵ rays. Without an adapter
+/// those that need one are left out.
 ///
 /// # Errors
 /// When none will do, with the reason for each; when the view cannot be drawn at all.
 pub fn calibrate(
-    gpu: &Gpu,
+    gpu: Option<&Gpu>,
     scene: &Scene,
     view: &View,
     configurations: &[Configuration],
@@ -41,7 +42,6 @@ pub fn calibrate(
     let sparse_views = nearby(scene, view, sparse_size(view.width(), view.height()), SPARSE)?;
     let Some(sparse_view) = sparse_views.first() else { return Err(refused(String::new())) };
     let mut calibration = Calibration {
-        gpu,
         scene,
         configurations,
         max_error,
@@ -104,7 +104,6 @@ fn nearby(
 /// Candidates on their scene. Those that are right enough in the sparse picture keep their renderers
 /// for the whole one: composing shaders and compiling them takes longer than drawing.
 struct Calibration<'a> {
-    gpu: &'a Gpu,
     scene: &'a Scene,
     configurations: &'a [Configuration],
     max_error: f64,
@@ -112,19 +111,14 @@ struct Calibration<'a> {
     sparse_views: &'a [View],
     whole: ReferenceView<'a>,
     whole_views: Vec<View>,
-    renderers: Vec<Option<PreparedRenderer>>,
+    renderers: Vec<Option<PreparedRenderer<'a>>>,
 }
 
 impl Measure for Calibration<'_> {
     fn sparse(&mut self, candidate: usize) -> Result<Measurement, String> {
         let (reference, renderer) = (&self.sparse, self.configurations[candidate].renderer(false));
-        let prepared = PreparedRenderer::prepare(
-            self.gpu,
-            renderer,
-            self.scene,
-            &reference.targets,
-            reference.view,
-        );
+        let prepared =
+            PreparedRenderer::prepare(reference.canvas(), renderer, self.scene, reference.view);
         let renderer = prepared.map_err(|error| error.to_string())?;
         let errors = reference.errors(&renderer);
         if !errors.keep(self.max_error) {
@@ -165,13 +159,13 @@ impl Measure for Calibration<'_> {
     }
 }
 
-impl Calibration<'_> {
+impl<'a> Calibration<'a> {
     /// The whole picture, by the renderer that drew the sparse one.
-    fn redraw(&mut self, candidate: usize) -> Result<PreparedRenderer, String> {
+    fn redraw(&mut self, candidate: usize) -> Result<PreparedRenderer<'a>, String> {
         let mut renderer =
             self.renderers[candidate].take().ok_or("drawn before, and was not right enough")?;
         let whole = &self.whole;
-        let redrawn = renderer.redraw(self.gpu, &whole.targets, whole.view);
+        let redrawn = renderer.redraw(whole.canvas(), whole.view);
         redrawn.map(|()| renderer).map_err(|error| error.to_string())
     }
 
@@ -179,11 +173,11 @@ impl Calibration<'_> {
     fn time(
         &self,
         reference: &ReferenceView<'_>,
-        renderers: &mut [PreparedRenderer],
+        renderers: &mut [PreparedRenderer<'_>],
         views: &[View],
         enough: Duration,
     ) -> Vec<Result<f64, String>> {
-        let timings = time_all(self.gpu, renderers, &reference.targets, views, enough, || ());
+        let timings = time_all(reference.canvas(), renderers, views, enough, || ());
         let median = |timing: Timing| timing.frame_ms.median;
         timings
             .into_iter()

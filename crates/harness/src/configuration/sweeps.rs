@@ -47,14 +47,17 @@ pub fn candidates() -> Vec<Configuration> {
 /// A method with one of its knobs turned, for each position that differs from the preset.
 fn turned(method: &'static Method) -> Vec<Configuration> {
     match method.technique {
-        Technique::Tree(options, _) => match options.structure {
-            Structure::ModifiedBvh => [searches(method, false), leaves(method)].concat(),
-            Structure::Fitted(_) => {
-                [searches(method, true), leaves(method), fitted(method)].concat()
+        Technique::Tree(options, _) | Technique::TreeOnHost(options, _) => {
+            match options.structure {
+                Structure::ModifiedBvh => [searches(method, false), leaves(method)].concat(),
+                Structure::Fitted(_) => {
+                    [searches(method, true), leaves(method), fitted(method)].concat()
+                }
+                Structure::Certified(classes) => certified(method, classes),
             }
-            Structure::Certified(classes) => certified(method, classes),
-        },
+        }
         Technique::Peeling(preset) => peeling(method, preset),
+        Technique::Baseline { .. } => clipping(method),
         Technique::Fragments(preset) => fragment_lists(method, preset),
         Technique::TileSearch | Technique::Own(_) => Vec::new(),
     }
@@ -66,12 +69,19 @@ fn tree(
     value: &str,
     change: impl Fn(&mut Options, &mut Option<SecantSearch>),
 ) -> Option<Configuration> {
-    let Technique::Tree(preset, preset_search) = method.technique else { return None };
+    let (Technique::Tree(preset, preset_search) | Technique::TreeOnHost(preset, preset_search)) =
+        method.technique
+    else {
+        return None;
+    };
     let (mut options, mut search) = (preset, preset_search);
     change(&mut options, &mut search);
     let is_preset = options == preset && search == preset_search;
-    (!is_preset)
-        .then(|| Configuration::with(method, option, value, Technique::Tree(options, search)))
+    let turned = match method.technique {
+        Technique::TreeOnHost(..) => Technique::TreeOnHost(options, search),
+        _ => Technique::Tree(options, search),
+    };
+    (!is_preset).then(|| Configuration::with(method, option, value, turned))
 }
 
 /// How closely the secant search closes in (section 3), and how the leaf test is read.
@@ -164,6 +174,15 @@ fn peeling(method: &'static Method, preset: kanamori_peel::Options) -> Vec<Confi
         Configuration::with(method, option, value, Technique::Peeling(options))
     };
     knobs.map(configuration).into()
+}
+
+/// How far the baseline clips.
+fn clipping(method: &'static Method) -> Vec<Configuration> {
+    let thresholds = [("1e-1", 1e-1), ("1e-2", 1e-2), ("1e-4", 1e-4), ("1e-5", 1e-5)];
+    let configuration = |(value, threshold)| {
+        Configuration::with(method, "threshold", value, Technique::Baseline { threshold })
+    };
+    thresholds.map(configuration).into()
 }
 
 /// Length of the local array, and where balls are sorted.

@@ -6,7 +6,7 @@ use metaball_core::gpu::{FreeRay, Gpu, RayBatch, RenderError, Targets, render_wi
 use metaball_core::{Hit, Ray, Scene, View};
 
 use super::CERTIFIED;
-use crate::trials::renderer;
+use crate::trials::on_adapter;
 
 /// A free ray with its query, and the answer.
 pub(super) struct Answered {
@@ -30,7 +30,7 @@ pub(super) fn trace(
     view: &View,
     rays: &[FreeRay],
 ) -> Result<Vec<Answered>, Failed> {
-    let mut renderer = renderer(CERTIFIED)?;
+    let mut renderer = on_adapter(CERTIFIED)?;
     renderer.build(gpu, scene)?;
     let targets = Targets::new(gpu, view.width(), view.height(), false, false)?;
     let batch = RayBatch::new(gpu, &targets)?;

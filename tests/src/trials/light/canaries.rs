@@ -39,7 +39,7 @@ fn wrong_answers_are_rejected(gpu: &Gpu) -> Result<(), Failed> {
 fn clearance_is_needed(gpu: &Gpu) -> Result<(), Failed> {
     let bench = load("random-200")?;
     let (scene, view) = (&bench.scene, view_of(&bench)?);
-    let picture = draw(gpu, renderer(CERTIFIED)?.as_mut(), scene, &view)?;
+    let picture = draw(gpu, &mut renderer(CERTIFIED)?, scene, &view)?;
     let found = picture.rays.iter().zip(&picture.hits).filter(|(_, hit)| hit.is_hit());
     let oracle = Oracle::new(scene);
     let starts: Vec<_> =

@@ -11,7 +11,7 @@ use metaball_light::{Effects, Floor, Lamp, Occlusion, Surface};
 use super::CERTIFIED;
 use super::answers::{Answered, answers};
 use super::judge::judge;
-use crate::trials::{SIZE, load, on_gpu, renderer, view_of};
+use crate::trials::{SIZE, load, on_adapter, on_gpu, view_of};
 
 /// Scenes whose effects are followed: merging and tangled ones, strengths, all at one scale; far from the
 /// origin; and radii of a thousandth beside one.
@@ -82,7 +82,7 @@ pub(super) fn last_rays(
             effects.bounces = level;
         }
     }
-    let mut renderer = renderer(method)?;
+    let mut renderer = on_adapter(method)?;
     renderer.build(gpu, scene)?;
     let mut tracer = PathTracer::new(gpu, scene, view, effects, 1, 7)?;
     tracer.add_sample(renderer.as_mut())?;

@@ -11,7 +11,7 @@ use metaball_light::{Effects, Film, Lamp, Occlusion, Surface, cpu, gpu};
 use super::CERTIFIED;
 use super::answers::Answered;
 use super::effects::{EFFECTS, Effect, SCENES, floor_below, last_rays};
-use crate::trials::{load, on_gpu, renderer, view_of};
+use crate::trials::{load, on_adapter, on_gpu, view_of};
 
 pub(super) fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
@@ -129,7 +129,7 @@ fn gpu_picture(
     effects: &Effects,
     seed: u32,
 ) -> Result<Image, Failed> {
-    let mut renderer = renderer(CERTIFIED)?;
+    let mut renderer = on_adapter(CERTIFIED)?;
     renderer.build(gpu, scene)?;
     let mut tracer = gpu::PathTracer::new(gpu, scene, view, effects.clone(), SAMPLES, seed)?;
     for _ in 0..SAMPLES {

@@ -9,7 +9,7 @@ use metaball_light::{Effects, Environment, Surface};
 
 use super::CERTIFIED;
 use super::effects::floor_below;
-use crate::trials::{load, on_gpu, renderer, view_of};
+use crate::trials::{load, on_adapter, on_gpu, view_of};
 
 pub(super) fn trials() -> Vec<Trial> {
     vec![
@@ -29,7 +29,7 @@ fn same_seed_same_picture(gpu: &Gpu) -> Result<(), Failed> {
             environment: Environment::Sky,
             ..Effects::phong(&bench.camera)
         };
-        let mut renderer = renderer(CERTIFIED)?;
+        let mut renderer = on_adapter(CERTIFIED)?;
         renderer.build(gpu, &bench.scene)?;
         let mut tracer = PathTracer::new(gpu, &bench.scene, &view, effects, 2, seed)?;
         tracer.add_sample(renderer.as_mut())?;
@@ -57,7 +57,7 @@ fn one_surface_is_enough(gpu: &Gpu) -> Result<(), Failed> {
         ..Effects::phong(&bench.camera)
     };
     let film = |method, samples| {
-        let mut renderer = renderer(method)?;
+        let mut renderer = on_adapter(method)?;
         renderer.build(gpu, &bench.scene)?;
         let mut tracer = PathTracer::new(gpu, &bench.scene, &view, effects.clone(), samples, 7)?;
         for _ in 0..samples {
@@ -95,7 +95,7 @@ fn refused_without_a_ray_tracer(gpu: &Gpu) -> Result<(), Failed> {
         ("fbvh", Effects { surface: fluid, ..phong }),
     ];
     for (method, effects) in refused {
-        let mut renderer = renderer(method)?;
+        let mut renderer = on_adapter(method)?;
         renderer.build(gpu, &bench.scene)?;
         let mut tracer = PathTracer::new(gpu, &bench.scene, &view, effects, 1, 0)?;
         match tracer.add_sample(renderer.as_mut()) {

@@ -91,7 +91,7 @@ impl PlannedScene {
         let choose = |&max_error: &f64| {
             progress.stage(format!("{}: choosing for {max_error}", self.spec));
             let start = Instant::now();
-            let choice = calibrate(gpu, &bench.scene, &view, configurations, max_error);
+            let choice = calibrate(Some(gpu), &bench.scene, &view, configurations, max_error);
             progress.advance(1);
             (max_error, choice.map_err(|error| error.to_string()), start.elapsed().as_secs_f64())
         };
@@ -123,18 +123,14 @@ impl PlannedScene {
         let timed = &near[FRAMES.most..];
         let Some(unused) = timed.last() else { anyhow::bail!("needed a view, found none") };
         let reference =
-            ReferenceView::new(gpu, &bench.scene, &Oracle::new(&bench.scene), unused, RAYS)?;
+            ReferenceView::new(Some(gpu), &bench.scene, &Oracle::new(&bench.scene), unused, RAYS)?;
         let (mut renderers, mut outcomes) = (Vec::new(), Vec::new());
         for configuration in configurations {
             progress.stage(format!("{}: {configuration}", self.spec));
             let renderer = configuration.renderer(false);
-            let prepared = PreparedRenderer::prepare(
-                gpu,
-                renderer,
-                &bench.scene,
-                &reference.targets,
-                reference.view,
-            );
+            let canvas = reference.canvas();
+            let prepared =
+                PreparedRenderer::prepare(canvas, renderer, &bench.scene, reference.view);
             outcomes.push(match prepared {
                 Ok(renderer) => {
                     let errors = reference.errors(&renderer);
@@ -147,8 +143,7 @@ impl PlannedScene {
         }
         progress.stage(format!("{}: timing", self.spec));
         let advance = || progress.advance(1);
-        let timings =
-            time_all(gpu, &mut renderers, &reference.targets, timed, FRAMES.enough, advance);
+        let timings = time_all(reference.canvas(), &mut renderers, timed, FRAMES.enough, advance);
         let mut timings = timings.into_iter();
         let drawn = |errors: Result<Errors, String>| {
             let errors = errors?;

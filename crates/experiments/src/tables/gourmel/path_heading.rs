@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::run::CameraPath;
 use crate::console::ProgressBar;
 use crate::extent::Extent;
-use crate::page::{fact, software_remark};
+use crate::page::{cpu_remark, fact};
 use crate::tables::Options;
 use crate::tables::heading::Heading;
 
@@ -33,7 +33,7 @@ impl PathHeading {
     pub(super) fn new(schema: &str, gpu: &Gpu, extent: Extent, path: CameraPath) -> Self {
         let quick = "Quick: scenes of a few hundred balls instead of the paper's.".to_owned();
         let quick = (extent == Extent::Quick).then_some(quick);
-        let remarks = quick.into_iter().chain(software_remark(gpu)).collect();
+        let remarks = quick.into_iter().chain(cpu_remark(Some(gpu))).collect();
         let CameraPath { size: (width, height), cameras } = path;
         Self { heading: Heading::new(schema, Some(gpu), remarks), width, height, cameras }
     }

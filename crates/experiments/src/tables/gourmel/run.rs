@@ -14,8 +14,10 @@ use serde::{Deserialize, Serialize};
 use super::plan::subject;
 use super::tree_variant::TreeVariant;
 use crate::console::ProgressBar;
+use harness::canvas::Canvas;
 use harness::measure::{PreparedRenderer, count_work, milliseconds, time_all, views};
 use harness::record::{Samples, WorkPerRay};
+use harness::renderer;
 
 /// A structure measured on a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -130,14 +132,15 @@ pub fn measure(
     let views = views(&bench.camera, &bench.path, &scene.bounds(), path.size, path.cameras)?;
     let colors = scene.colors().is_some();
     let targets = Targets::new(gpu, path.size.0, path.size.1, colors, false)?;
+    let canvas = Canvas::on_adapter(gpu, &targets);
 
     let mut renderers = Vec::new();
     let mut outcomes = Vec::new();
     for &variant in variants {
         progress.stage(format!("{spec}: {}", variant.name()));
         let outcome = build(scene, &variant.options()).and_then(|built| {
-            let drawn = renderer(variant, false);
-            let prepared = PreparedRenderer::prepare(gpu, drawn, scene, &targets, &views[0])?;
+            let drawn = renderer::Renderer::Adapter(renderer(variant, false));
+            let prepared = PreparedRenderer::prepare(canvas, drawn, scene, &views[0])?;
             let work = count_work(gpu, renderer(variant, true), scene, &views[0])?;
             renderers.push(prepared);
             Ok((built, work))
@@ -148,7 +151,7 @@ pub fn measure(
 
     progress.stage(format!("{spec}: timing"));
     let advance = || progress.advance(1);
-    let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, advance);
+    let timings = time_all(canvas, &mut renderers, &views, Duration::MAX, advance);
     let mut timings = timings.into_iter();
     let run = |(variant, prepared): (TreeVariant, anyhow::Result<Prepared>)| {
         let about = || format!("{spec}, {}", variant.name());

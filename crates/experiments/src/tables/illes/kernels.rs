@@ -3,13 +3,15 @@
 
 use bench_scenes::{Overrides, load};
 use illes_fraglist::{Options, Piece, Renderer, cubic_deviation};
-use metaball_core::gpu::{Frame, Gpu, Targets};
+use metaball_core::gpu::{Gpu, Targets};
 use metaball_core::reference::Oracle;
 use metaball_core::{Kernel, View};
 use serde::{Deserialize, Serialize};
 
+use harness::canvas::Canvas;
 use harness::measure::PreparedRenderer;
 use harness::reference::Reference;
+use harness::renderer;
 use harness::score::{Accuracy, score};
 
 /// A kernel's row.
@@ -54,14 +56,13 @@ pub fn compare(
     let bench = load(spec, &Overrides { kernel: Some(kernel), ..Overrides::default() })?;
     let view = View::new(bench.camera, size.0, size.1)?;
     let targets = Targets::new(gpu, size.0, size.1, false, false)?;
-    // A frame without a method makes the rays.
-    Frame::begin(gpu, &targets, &view)?.finish()?;
-    let rays = targets.read_rays(gpu, &view)?;
+    let canvas = Canvas::on_adapter(gpu, &targets);
+    let rays = canvas.rays(&view)?;
     let reference = Reference::of_every_pixel(size, Oracle::new(&bench.scene).first_hits(&rays));
     let picture = |name, piece| -> anyhow::Result<Picture> {
         let options = Options { piece, ..Options::default() };
-        let renderer = Box::new(Renderer::new(name, options, false));
-        Ok(match PreparedRenderer::prepare(gpu, renderer, &bench.scene, &targets, &view) {
+        let renderer = renderer::Renderer::Adapter(Box::new(Renderer::new(name, options, false)));
+        Ok(match PreparedRenderer::prepare(canvas, renderer, &bench.scene, &view) {
             Ok(renderer) => Picture::Compared(score(&reference, &renderer.hits)?),
             Err(error) => Picture::Refused(error.to_string()),
         })

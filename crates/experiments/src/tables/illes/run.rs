@@ -10,8 +10,10 @@ use metaball_core::View;
 use metaball_core::gpu::{Gpu, IsoRenderer, Targets};
 use serde::{Deserialize, Serialize};
 
+use harness::canvas::Canvas;
 use harness::measure::{PreparedRenderer, time_all, views};
 use harness::record::Samples;
+use harness::renderer;
 use harness::stats::{quantile, sorted};
 
 /// What is measured side by side: name, gathering, sorting.
@@ -167,7 +169,8 @@ pub fn measure(
         ));
     }
     stage("timing");
-    let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, || ());
+    let canvas = Canvas::on_adapter(gpu, &targets);
+    let timings = time_all(canvas, &mut renderers, &views, Duration::MAX, || ());
     let mut timed = renderers.into_iter().zip(timings);
     let run = |((variant, ..), lists): ((&str, Gather, Sort), anyhow::Result<Lists>)| {
         let about = || format!("{}, {variant}", bench.name);
@@ -194,17 +197,19 @@ pub fn measure(
     Ok(VARIANTS.into_iter().zip(prepared).map(run).collect())
 }
 
-fn prepare(
+fn prepare<'s>(
     gpu: &Gpu,
-    bench: &BenchScene,
+    bench: &'s BenchScene,
     variant: (&'static str, Gather, Sort),
     targets: &Targets,
     view: &View,
-) -> anyhow::Result<(PreparedRenderer, Lists)> {
+) -> anyhow::Result<(PreparedRenderer<'s>, Lists)> {
     let mut renderer = renderer(variant);
     renderer.build(gpu, &bench.scene)?;
     let lists = Lists::new(&renderer.list_lengths(gpu, targets, view)?);
-    Ok((PreparedRenderer::prepare(gpu, Box::new(renderer), &bench.scene, targets, view)?, lists))
+    let canvas = Canvas::on_adapter(gpu, targets);
+    let renderer = renderer::Renderer::Adapter(Box::new(renderer));
+    Ok((PreparedRenderer::prepare(canvas, renderer, &bench.scene, view)?, lists))
 }
 
 #[cfg(test)]

@@ -14,8 +14,10 @@ use super::plan::{Part, PlannedScene};
 use super::variant::Variant;
 use crate::console::ProgressBar;
 use crate::tables::scene_result::SceneResult;
+use harness::canvas::Canvas;
 use harness::measure::{PreparedRenderer, milliseconds, time_all, views};
 use harness::record::Samples;
+use harness::renderer::Renderer;
 
 /// A scene with its results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -132,7 +134,8 @@ pub fn measure(
     let errors: Vec<_> =
         renderers.iter().map(|renderer| error_of_t(&renderer.hits, &reference)).collect();
     let advance = || progress.advance(1);
-    let timings = time_all(gpu, &mut renderers, &targets, &views, Duration::MAX, advance);
+    let canvas = Canvas::on_adapter(gpu, &targets);
+    let timings = time_all(canvas, &mut renderers, &views, Duration::MAX, advance);
     let mut timed = timings.into_iter().zip(errors);
 
     let run = |(variant, prepared): (Variant, anyhow::Result<WorkOfRays>)| {
@@ -158,13 +161,13 @@ pub fn measure(
     Ok(Measured { balls: scene.len(), runs, cpu })
 }
 
-fn prepare(
+fn prepare<'s>(
     gpu: &Gpu,
-    scene: &Scene,
+    scene: &'s Scene,
     targets: &Targets,
     view: &View,
     variant: Variant,
-) -> anyhow::Result<(PreparedRenderer, WorkOfRays)> {
+) -> anyhow::Result<(PreparedRenderer<'s>, WorkOfRays)> {
     let size = (view.width(), view.height());
     let mut counting = variant.renderer(size, true);
     counting.build(gpu, scene)?;
@@ -173,9 +176,9 @@ fn prepare(
     let mut work = WorkOfRays::of(&counted.read_work(gpu)?.unwrap_or_default());
     let facts = counting.frame_facts(gpu)?.into_iter();
     work.facts = facts.map(|(name, value)| (name.to_owned(), value)).collect();
-    let renderer =
-        PreparedRenderer::prepare(gpu, variant.renderer(size, false), scene, targets, view)?;
-    Ok((renderer, work))
+    let canvas = Canvas::on_adapter(gpu, targets);
+    let renderer = Renderer::Adapter(variant.renderer(size, false));
+    Ok((PreparedRenderer::prepare(canvas, renderer, scene, view)?, work))
 }
 
 /// What the counters of a picture come to; see [`GpuRun`].

@@ -9,6 +9,7 @@ use metaball_core::{Generality, Hit, Scene, View};
 use serde::{Deserialize, Serialize};
 
 use crate::console::ProgressBar;
+use harness::canvas::Canvas;
 use harness::measure::{PreparedRenderer, milliseconds, views};
 use harness::methods::Method;
 use harness::record::Samples;
@@ -105,26 +106,27 @@ pub struct Measured {
 }
 
 /// A form ready to draw.
-struct Drawer {
-    renderer: PreparedRenderer,
+struct Drawer<'s> {
+    renderer: PreparedRenderer<'s>,
     targets: Targets,
     code: u64,
     frame_ms: Vec<f64>,
 }
 
-impl Drawer {
+impl<'s> Drawer<'s> {
     fn new(
         gpu: &Gpu,
         method: &Method,
         form: &Form,
-        scene: &Scene,
+        scene: &'s Scene,
         view: &View,
     ) -> anyhow::Result<Self> {
         let has_colors = scene.colors().is_some();
         let targets = Targets::new(gpu, view.width(), view.height(), has_colors, form.counting)?;
         let before = gpu.code();
         let renderer = method.renderer(form.counting);
-        let renderer = PreparedRenderer::prepare(gpu, renderer, scene, &targets, view)?;
+        let canvas = Canvas::on_adapter(gpu, &targets);
+        let renderer = PreparedRenderer::prepare(canvas, renderer, scene, view)?;
         Ok(Self { renderer, targets, code: gpu.code() - before, frame_ms: Vec::new() })
     }
 
@@ -161,18 +163,19 @@ impl PlannedScene {
         let BenchScene { scene, camera, .. } = load(&self.spec, &Overrides::default())?;
         let views = views(&camera, &[], &scene.bounds(), self.size, self.rounds)?;
         let first = views.first().context("needed a round to measure, found none")?;
+        let scenes: Vec<_> = FORMS.iter().map(|form| form.scene(&scene)).collect();
         let mut drawers = Vec::new();
-        for form in &FORMS {
+        for (form, general) in zip(&FORMS, &scenes) {
             progress.stage(format!("{}, {}: {}", self.spec, self.method.name, form.name));
-            drawers.push(form.scene(&scene).and_then(|general| {
-                Drawer::new(gpu, self.method, form, &general, first)
+            drawers.push(general.as_ref().map_err(String::clone).and_then(|general| {
+                Drawer::new(gpu, self.method, form, general, first)
                     .map_err(|error| format!("{error:#}"))
             }));
             progress.advance(1);
         }
         for view in &views {
             for Drawer { renderer, targets, frame_ms, .. } in drawers.iter_mut().flatten() {
-                let report = renderer.draw(gpu, targets, view)?;
+                let report = renderer.draw(Canvas::on_adapter(gpu, targets), view)?;
                 frame_ms.push(milliseconds(report.wall));
             }
             progress.advance(1);
@@ -183,7 +186,7 @@ impl PlannedScene {
             }
             Err(reason) => anyhow::bail!("{reason}"),
         };
-        let row = |(form, drawer): (&Form, Result<Drawer, String>)| Row {
+        let row = |(form, drawer): (&Form, Result<Drawer<'_>, String>)| Row {
             form: form.name.to_owned(),
             result: drawer.map(|drawer| drawer.measured(&specialised)),
         };

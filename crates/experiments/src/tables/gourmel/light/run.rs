@@ -75,7 +75,7 @@ pub fn measure(
         renderers.entry(one.method).or_insert_with(|| {
             progress.stage(format!("{spec}: building {}", one.method));
             let method = find(one.method).ok_or("no such method")?;
-            let mut renderer = method.renderer(false);
+            let mut renderer = method.renderer(false).on_adapter().ok_or("not on an adapter")?;
             renderer.build(gpu, scene).map_err(|error| error.to_string())?;
             Ok(renderer)
         });
