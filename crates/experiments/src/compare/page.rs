@@ -51,7 +51,7 @@ fn table_rows(scene: &SceneComparison) -> String {
             escape(&record.scene),
             grouped(record.balls),
             escape(&record.method),
-            escape(&record.adapter.short())
+            record.measured.as_ref().map_or_else(dash, |_| escape(&record.adapter.short()))
         );
         match &record.measured {
             Some(measured) => rows.push_str(&measured_cells(measured)),
