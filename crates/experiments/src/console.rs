@@ -92,10 +92,7 @@ impl ProgressBar {
 
     /// Shows what begins now, and how long all is likely to take yet.
     pub fn stage(&self, text: String) {
-        let text = match self.left() {
-            Some(left) => format!("{text} ({} left)", HumanDuration(left)),
-            None => text,
-        };
+        let text = self.with_time_left(text);
         if self.watched {
             self.bar.set_message(text);
         } else {
@@ -103,16 +100,23 @@ impl ProgressBar {
         }
     }
 
-    /// Shows how long all is likely to take yet; nothing without a terminal.
-    pub fn show_left(&self) {
-        if let (true, Some(left)) = (self.watched, self.left()) {
-            self.bar.set_message(format!("{} left", HumanDuration(left)));
+    /// Shows what goes on and how long it is likely to take yet; nothing without a terminal.
+    pub fn show_left(&self, doing: &str) {
+        if self.watched {
+            self.bar.set_message(self.with_time_left(doing.to_owned()));
         }
     }
 
     /// So many steps are done.
     pub fn advance(&self, steps: u64) {
         self.bar.inc(steps);
+    }
+
+    fn with_time_left(&self, text: String) -> String {
+        match self.left() {
+            Some(left) => format!("{text} ({} left)", HumanDuration(left)),
+            None => text,
+        }
     }
 
     /// At the pace of all steps so far: that of the last few is no estimate where steps differ as methods

@@ -14,8 +14,8 @@ use harness::methods::find;
 use harness::numbers::{decimal, grouped};
 use metaball::{
     AnimateOptions, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions, Error,
-    FrameOutcome, Method, NumberedPath, Outputs, Overrides, Progress, Summary, Tally, animate,
-    draw_to_files,
+    FrameOutcome, Method, NumberedPath, Outputs, Overrides, Progress, Stage, Summary, Tally,
+    animate, draw_to_files,
 };
 use metaball_core::{Color, Picture, Scene};
 
@@ -130,12 +130,12 @@ impl RenderArgs {
         }
         let bench = load(&scene, &overrides)?;
         let outputs = Outputs { image: out, hits, light: light_out, resume };
-        let mut bar = None;
+        let mut bars = Bars::default();
         let summary = draw_to_files(&bench.scene, &bench.camera, &options, &outputs, |progress| {
-            show(progress, bar.get_or_insert_with(|| ProgressBar::new(progress.of.into())));
+            bars.show(progress);
             ControlFlow::Continue(())
         });
-        drop(bar);
+        drop(bars);
         report(&bench.name, &bench.scene, &summary.map_err(by_flag)?);
         let files = [("picture", Some(&outputs.image)), ("hits file", outputs.hits.as_ref())];
         for (name, path) in files.into_iter().chain([("light file", outputs.light.as_ref())]) {
@@ -250,15 +250,27 @@ fn line(name: &str, value: &str) {
     console::line(&format!("{name:<10} {value}"));
 }
 
-/// Shows how far a picture is.
-fn show(progress: Progress, bar: &ProgressBar) {
-    let Progress { done, resumed, .. } = progress;
-    if done == resumed {
-        bar.skip(done.into());
-    } else {
-        bar.reach(done.into());
+/// How far a picture is, on a terminal.
+#[derive(Default)]
+struct Bars(Option<(Stage, ProgressBar)>);
+
+impl Bars {
+    fn show(&mut self, progress: Progress) {
+        let Progress { stage, done, of, resumed, .. } = progress;
+        if self.0.as_ref().is_none_or(|(shown, _)| *shown != stage) {
+            self.0 = Some((stage, ProgressBar::new(of.into())));
+        }
+        let Some((_, bar)) = &self.0 else { return };
+        if done == resumed {
+            bar.skip(done.into());
+        } else {
+            bar.reach(done.into());
+        }
+        bar.show_left(match stage {
+            Stage::Drawing => "drawing",
+            Stage::Writing => "writing",
+        });
     }
-    bar.show_left();
 }
 
 fn report(name: &str, scene: &Scene, summary: &Summary) {

@@ -57,7 +57,7 @@ pub(crate) struct Painter<'a> {
 /// How a picture is shaded.
 enum Look<'a> {
     Shared(Shader<'a>),
-    Lit(&'a Lighting, PathTracer<'a, Tracer<'a, Scene>>),
+    Lit(&'a Lighting, Box<PathTracer<'a, Tracer<'a, Scene>>>),
 }
 
 impl<'a> Painter<'a> {
@@ -84,7 +84,7 @@ impl<'a> Painter<'a> {
                     needed: "fbvh-certified, which follows rays inside the solid".to_owned(),
                     found: options.method.name().to_owned(),
                 })?;
-                Look::Lit(lighting, paths)
+                Look::Lit(lighting, paths.into())
             }
         };
         Ok(Self { view, tracer, look })

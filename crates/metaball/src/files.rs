@@ -11,7 +11,7 @@ use crate::band::{Planes, bands};
 use crate::cpu::{Built, Finisher, Painter};
 use crate::draw::{Attempt, no_light, on_adapter};
 use crate::spool::{Description, Spool};
-use crate::summary::{Progress, Summary, Tally};
+use crate::summary::{Progress, Stage, Summary, Tally, asked};
 use crate::{DrawOptions, Drawing, Error};
 
 /// Where a picture goes.
@@ -98,7 +98,10 @@ struct Job<'a> {
 
 impl Job<'_> {
     /// Draws to the spool, and writes the files from it.
-    fn draw(&self, progress: impl FnMut(Progress) -> ControlFlow<()>) -> Result<Summary, Error> {
+    fn draw(
+        &self,
+        mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Summary, Error> {
         let Self { scene, view, options, outputs, .. } = *self;
         let lighting = options.lighting(view, scene)?;
         let built = Built::new(&options.method, scene)?;
@@ -108,10 +111,10 @@ impl Job<'_> {
         let description = Description::new(scene, view, options, planes);
         let path = Spool::path_beside(&outputs.image);
         let mut spool = Spool::open(path, view, planes, &description, outputs.resume)?;
-        self.draw_rest(&mut spool, &painter, planes, progress)?;
+        self.draw_rest(&mut spool, &painter, planes, &mut progress)?;
         let range = (!planes.pixels).then(|| range_of(&spool)).transpose()?;
         let mut finisher = range.map(|range| painter.finisher(range));
-        let tally = self.write_files(&spool, finisher.as_mut())?;
+        let tally = self.write_files(&spool, finisher.as_mut(), &mut progress)?;
         spool.remove()?;
         Ok(Summary {
             tally,
@@ -129,13 +132,11 @@ impl Job<'_> {
         spool: &mut Spool,
         painter: &Painter<'_>,
         planes: Planes,
-        mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+        progress: &mut impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(), Error> {
         let (of, resumed) = (self.view.height(), spool.rows());
-        let mut report = |done| match progress(Progress { done, of, resumed }) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Error::Interrupted),
-        };
+        let stage = Stage::Drawing;
+        let mut report = |done| asked(progress(Progress { stage, done, of, resumed }));
         report(resumed)?;
         let pixels = self.band_pixels.unwrap_or(painter.band_pixels());
         for rows in bands(self.view, resumed, pixels) {
@@ -150,7 +151,9 @@ impl Job<'_> {
         &self,
         spool: &Spool,
         mut finisher: Option<&mut Finisher<'_, '_>>,
+        progress: &mut impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Tally, Error> {
+        let (stage, of) = (Stage::Writing, self.view.height());
         let mut files = Files::create(self.outputs, self.view)?;
         let mut tally = Tally::default();
         let mut ahead = spool.bands();
@@ -165,6 +168,7 @@ impl Job<'_> {
             }
             files.write(&band.pixels, &band.hits, &band.light)?;
             tally += band.tally;
+            asked(progress(Progress { stage, done: band.rows.end, of, resumed: 0 }))?;
         }
         files.finish()?;
         Ok(tally)
@@ -240,19 +244,22 @@ mod tests {
         DrawOptions { light, ..options(Picture::Phong) }
     }
 
-    /// Draws with five bands, and breaks off when so many rows are there.
+    const NEVER: (Stage, u32) = (Stage::Writing, 71);
+
+    /// Draws with five bands, and breaks off when so many rows are there, or written.
     fn draw_until(
         bench: &BenchScene,
         options: &DrawOptions,
         outputs: &Outputs,
-        end: u32,
+        end: (Stage, u32),
     ) -> Result<Summary, Error> {
         let view = options.view(&bench.scene, &bench.camera)?;
         let scene = &bench.scene;
         let job = Job { scene, view: &view, options, outputs, band_pixels: Some(1) };
         job.draw(|progress| {
             assert_eq!(progress.of, 70);
-            if progress.done >= end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let is_end = progress.stage == end.0 && progress.done >= end.1;
+            if is_end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
     }
 
@@ -291,14 +298,16 @@ mod tests {
                 outputs.light = Some(found.join("light.exr"));
             }
 
-            for end in [0, 16, 32, 32, 64, 70] {
+            let drawing = [0, 16, 32, 32, 64, 70].map(|row| (Stage::Drawing, row));
+            let writing = [16, 32].map(|row| (Stage::Writing, row));
+            for end in drawing.into_iter().chain(writing) {
                 let stopped = draw_until(&bench, &options, &outputs, end);
                 assert!(matches!(stopped, Err(Error::Interrupted)), "{stopped:?}");
                 let there: Vec<_> = files(found).into_iter().map(|(name, _)| name).collect();
                 assert_eq!(there, ["image.png.spool"]);
                 outputs.resume = true;
             }
-            let summary = draw_until(&bench, &options, &outputs, 71).expect("drawn");
+            let summary = draw_until(&bench, &options, &outputs, NEVER).expect("drawn");
             assert!(files(found) == files(wanted), "{scene}, {options:?}");
             let timeless = |tally| Tally { frame: Duration::ZERO, light: Duration::ZERO, ..tally };
             assert_eq!(timeless(summary.tally), timeless(whole.summary.tally));
@@ -334,10 +343,12 @@ mod tests {
         let resume = Outputs { resume: true, ..outputs.clone() };
         let plain = options(Picture::Phong);
         let message = |scene: &BenchScene, options: &DrawOptions, outputs: &Outputs| {
-            draw_until(scene, options, outputs, 0).expect_err("broken off").to_string()
+            draw_until(scene, options, outputs, (Stage::Drawing, 0))
+                .expect_err("broken off")
+                .to_string()
         };
         assert_eq!(message(&bench, &plain, &resume), "interrupted", "nothing is there");
-        draw_until(&bench, &plain, &outputs, 32).expect_err("broken off");
+        draw_until(&bench, &plain, &outputs, (Stage::Drawing, 32)).expect_err("broken off");
         assert!(message(&bench, &plain, &outputs).contains("32 of 70 rows"));
         assert_eq!(message(&bench, &plain, &resume), "interrupted");
 

@@ -62,5 +62,5 @@ pub use method::Method;
 pub use particle_files::{
     AnimatedScene, BoxError, Loaded, NumberedPath, Overrides, Sequence, load,
 };
-pub use summary::{Progress, Summary, Tally};
+pub use summary::{Progress, Stage, Summary, Tally};
 pub use viewpoint::Viewpoint;

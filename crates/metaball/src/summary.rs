@@ -1,20 +1,41 @@
 //! What is said of a picture, while it is drawn and after.
 
-use std::ops::AddAssign;
+use std::ops::{AddAssign, ControlFlow};
 use std::time::Duration;
 
 use metaball_core::{Hit, ValueRange, Verdict};
+
+use crate::Error;
 
 /// How far a picture is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// Parts that are done: rows on the CPU, samples of light on an adapter.
+    /// What is done.
+    pub stage: Stage,
+    /// Parts of this stage that are done: samples of light where an adapter draws, else rows.
     pub done: u32,
     /// All parts.
     pub of: u32,
     /// Those of the done that an interrupted run did.
     pub resumed: u32,
+}
+
+/// What is done for a picture, one after the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Its rays are followed.
+    Drawing,
+    /// Its files are written.
+    Writing,
+}
+
+/// Whether to go on.
+pub(crate) fn asked(flow: ControlFlow<()>) -> Result<(), Error> {
+    match flow {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Interrupted),
+    }
 }
 
 /// What is to be said of a picture.

@@ -12,7 +12,7 @@ use metaball_light::{DepthCue, Effects, Film, cpu, develop};
 
 use crate::Error;
 use crate::certain::Certain;
-use crate::summary::Progress;
+use crate::summary::{Progress, Stage, asked};
 
 /// Standard deviation of the depth cue's Gaussian, in parts of the picture's height.
 const DEPTH_CUE_WIDTH: f32 = 0.02;
@@ -88,9 +88,8 @@ impl Lighting {
         let start = Instant::now();
         for done in 1..=samples {
             tracer.add_sample(renderer)?;
-            if progress(Progress { done, of: samples, resumed: 0 }).is_break() {
-                return Err(Error::Interrupted);
-            }
+            let stage = Stage::Drawing;
+            asked(progress(Progress { stage, done, of: samples, resumed: 0 }))?;
         }
         let mut film = tracer.film()?;
         let unfinished = tracer.unfinished()?;

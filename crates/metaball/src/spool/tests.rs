@@ -43,7 +43,7 @@ fn hits(count: u16) -> Vec<Hit> {
     let verdicts = [Verdict::Hit, Verdict::Miss, Verdict::Inside, Verdict::Undecided];
     let hit = |index: u16| Hit {
         verdict: verdicts[usize::from(index % 4)],
-        fallback: index % 3 == 0,
+        fallback: index.is_multiple_of(3),
         t: if index % 4 == 1 { f32::INFINITY } else { f32::from(index) + 0.1 },
         normal: Vec3::new(f32::from(index), -0.0, 1.0),
     };
