@@ -71,8 +71,8 @@ pub enum Error {
     File(#[from] PictureFileError),
     /// The finished rows of this very picture were left by an interrupted run, and would be lost.
     #[error(
-        "{}: {rows} of {height} rows of this picture are there; resume goes on with them, without \
-         that file it is drawn anew",
+        "{}: {rows} of {height} rows of this picture are there; resume goes on with them, and without \
+         the file it is drawn anew",
         path.display()
     )]
     Unfinished {

@@ -9,9 +9,9 @@ use ::png::{
 };
 use metaball_core::{Color, Image};
 
+use crate::PictureFileError;
 use crate::draft::Draft;
 use crate::pixel_count::PixelCount;
-use crate::{PictureFileError, write_atomically};
 
 /// A PNG on its way to the disk: eight bits a channel, sRGB.
 ///
@@ -41,8 +41,13 @@ impl PngFile {
     /// # Errors
     /// When they are more than are left, or cannot be written.
     pub fn write(&mut self, pixels: &[Color]) -> Result<(), PictureFileError> {
-        self.count.add(pixels.len())?;
-        self.pixels.write_all(bytemuck::cast_slice(pixels)).map_err(self.draft.error())
+        self.write_bytes(bytemuck::cast_slice(pixels))
+    }
+
+    /// Four bytes a pixel.
+    fn write_bytes(&mut self, rgba: &[u8]) -> Result<(), PictureFileError> {
+        self.count.add(rgba.len() / 4)?;
+        self.pixels.write_all(rgba).map_err(self.draft.error())
     }
 
     /// Moves the file to its place.
@@ -67,7 +72,9 @@ impl std::fmt::Debug for PngFile {
 /// # Errors
 /// When the image's size and its bytes do not agree, or the file cannot be written.
 pub fn write_png(path: &Path, image: &Image) -> Result<(), PictureFileError> {
-    write_atomically(path, &encode_png(image)?)
+    let mut file = PngFile::create(path, image.width, image.height)?;
+    file.write_bytes(&image.rgba)?;
+    file.finish()
 }
 
 /// Encodes an image as PNG: eight bits a channel, sRGB.
@@ -148,6 +155,12 @@ mod tests {
             file.finish().expect("finished");
             assert_eq!(fs::read(&path).expect("readable"), whole, "parts of {part}");
         }
+        let image = Image::new(7, 9, &pixels);
+        write_png(&path, &image).expect("written");
+        assert_eq!(fs::read(&path).expect("readable"), whole);
+        let odd = Image { rgba: image.rgba[..250].to_vec(), ..image };
+        assert!(write_png(&path, &odd).is_err() && encode_png(&odd).is_err());
+        assert_eq!(fs::read(&path).expect("the one before"), whole);
     }
 
     #[test]
