@@ -39,14 +39,15 @@ impl Outputs {
 /// On the CPU a picture is drawn band by band, and each band that is finished is kept in a spool beside the
 /// image, named like it with `.spool` behind: 4 bytes a pixel, 20 more for hits and 12 more for light. When
 /// all are finished, the files are written from it, and it is deleted. So a picture takes no more memory than
-/// a band of it, and one that was interrupted can be [resumed](Outputs::resume), and has the same bytes in
-/// the end. Unfinished bands of this very picture are never thrown away unasked, those of another are.
+/// a band of it, 4 bytes a pixel of an eighth of it with a depth cue; and one that was interrupted can be
+/// [resumed](Outputs::resume), and has the same bytes in the end. Finished bands of this very picture are never
+/// thrown away unasked, those of another are.
 ///
 /// An adapter draws a picture at once, in its own memory and in main memory. One that does not fit is left to
 /// the CPU, if its method is a tree, and so is one that the CPU began and that is resumed.
 ///
-/// After each part that is done the callback hears of it, and it may break off; so it does once before the
-/// first.
+/// After each part that is done the callback hears of it, and it may break off. On the CPU it hears first
+/// of what an interrupted run did.
 ///
 /// # Errors
 /// When an option cannot be used, method or adapter cannot draw the scene, a file cannot be written, there

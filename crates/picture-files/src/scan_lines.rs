@@ -154,11 +154,12 @@ fn encode_block<const N: usize>(
     line: usize,
     pixels: &[[f32; N]],
 ) -> exr::error::Result<Vec<u8>> {
-    let channels_of = |line: &[[f32; N]]| -> Vec<u8> {
-        let channel =
-            |channel: usize| line.iter().flat_map(move |pixel| pixel[channel].to_ne_bytes());
-        (0..N).flat_map(channel).collect()
-    };
+    let mut numbers = Vec::with_capacity(N * pixels.len());
+    for line in pixels.chunks(width) {
+        for channel in 0..N {
+            numbers.extend(line.iter().map(|pixel| pixel[channel]));
+        }
+    }
     let block = UncompressedBlock {
         index: BlockIndex {
             layer: 0,
@@ -166,7 +167,7 @@ fn encode_block<const N: usize>(
             pixel_size: Vec2(width, pixels.len() / width),
             level: Vec2(0, 0),
         },
-        data: pixels.chunks(width).flat_map(channels_of).collect(),
+        data: bytemuck::cast_slice::<f32, u8>(&numbers).to_vec(),
     };
     let mut bytes = Vec::new();
     block.compress_to_chunk(headers)?.write(&mut bytes, headers.len())?;
