@@ -86,7 +86,7 @@ impl<'a, F: Field> Tracer<'a, F> {
     }
 
     /// Where the ray first enters the solid: the smallest t at which the field is T or more.
-    /// [`Verdict::Inside`], at t = 0, when the ray starts there.
+    /// [`Verdict::Inside`], at t = `t_min`, when the ray starts there.
     pub fn first_hit(&self, ray: &Ray) -> Hit {
         self.first_hit_counting(ray, &mut ())
     }
@@ -148,7 +148,7 @@ impl<'a, F: Field> Tracer<'a, F> {
     /// below T, with the normal out of the solid.
     ///
     /// The convention is that of the shaders, `RayQuery::Exit` of `metaball_core::gpu`: a ray that
-    /// starts outside is at its exit already, [`Verdict::Inside`] the space beyond the solid at t = 0;
+    /// starts outside is at its exit already, [`Verdict::Inside`] the space beyond the solid at t = `t_min`;
     /// [`Verdict::Miss`] is a ray that ends inside.
     ///
     /// # Errors

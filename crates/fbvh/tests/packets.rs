@@ -73,6 +73,9 @@ fn falsehood(scene: &Scene, oracle: &Oracle<'_>, ray: &Ray, hit: &Hit) -> Option
     (hit.verdict != truth.verdict || !is_near).then(|| format!("{ray:?}: {hit:?}, {truth:?}"))
 }
 
+/// Where rays start, in parts of the way to what they aim at: most at their origin.
+const START_SHARES: [f32; 8] = [0.0, 0.0, 0.0, 0.0, 0.7, 0.99, 1.0, 1.2];
+
 /// A ray from a point to about another, as f32 has it.
 fn towards(start: Vec3, end: Vec3) -> Ray {
     let offset = DVec3::from(end) - DVec3::from(start);
@@ -96,6 +99,12 @@ fn differences_are_complained_of() {
         assert!(falsehood(&scene, &oracle, &ray, &wrong).is_some());
     }
     assert!(difference(&oracle, &ray, &Hit { normal: Vec3::Y, ..hit }, &hit).is_some());
+    // Within the solid, and behind it.
+    for t_min in [hit.t + 0.1, hit.t + 4.0] {
+        let later = Ray { t_min, ..ray };
+        assert_eq!(falsehood(&scene, &oracle, &later, &tracer.first_hit(&later)), None);
+        assert!(falsehood(&scene, &oracle, &later, &hit).is_some());
+    }
 }
 
 /// In packets of eight, of fewer and of none, and in pictures of odd sizes.
@@ -176,8 +185,8 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// Neighbours about each of some targets, with a stray among them, rays that end early, and rays
-    /// that start inside; at any scale and distance.
+    /// Neighbours about each of some targets, with a stray among them, rays that end early, rays that
+    /// start late, and rays that start inside; at any scale and distance.
     #[test]
     fn packets_change_no_answer(
         scene in scenes::any_scene(40),
@@ -188,6 +197,7 @@ proptest! {
         targets in prop::collection::vec([-3.0f32..3.0, -3.0f32..3.0, -3.0f32..3.0], 8),
         strays in prop::collection::vec(0usize..64, 4),
         t_max in prop::sample::select(vec![NO_LIMIT, NO_LIMIT, 4.0]),
+        t_min in prop::collection::vec(prop::sample::select(START_SHARES.to_vec()), 64),
     ) {
         let balls: Vec<Metaball> = scene
             .balls()
@@ -205,7 +215,8 @@ proptest! {
                 let stray = strays.contains(&at);
                 let goal = if stray { -goal } else { goal + apart * scale * offset };
                 let start = if target == 7 { center } else { eye };
-                Ray { t_max: t_max * scale, ..towards(start, goal) }
+                let t_min = t_min[at] * start.distance(goal);
+                Ray { t_min, t_max: t_min + t_max * scale, ..towards(start, goal) }
             })
             .map(|ray| Ray { t_max: ray.t_max.min(NO_LIMIT), ..ray })
             .collect();

@@ -260,6 +260,8 @@ fn wrong_hits_are_complained_of() {
     assert!(complains(&ray, Hit { t: right.t + 1e-3, ..right }));
     assert!(complains(&ray, Hit { verdict: Verdict::Inside, t: 0.0, ..right }));
     assert!(complains(&Ray { direction: Vec3::X, ..ray }, right));
+    assert!(complains(&Ray { t_min: right.t + 0.1, ..ray }, right));
+    assert!(complains(&Ray { t_min: right.t + 4.0, ..ray }, right));
 }
 
 proptest! {
@@ -274,6 +276,7 @@ proptest! {
         scene in scenes::any_scene(40),
         eye in [-6.0f32..6.0, -6.0f32..6.0, -6.0f32..6.0],
         targets in prop::collection::vec([-3.0f32..3.0, -3.0f32..3.0, -3.0f32..3.0], 20),
+        t_min in prop::sample::select(vec![0.0f32, 0.0, 2.0, 5.0]),
         t_max in prop::sample::select(vec![NO_LIMIT, NO_LIMIT, 4.0]),
     ) {
         let oracle = Oracle::new(&scene);
@@ -284,7 +287,7 @@ proptest! {
                 let tracer = tracer(&tree, &scene, search);
                 for &target in &targets {
                     let direction = (DVec3::from(Vec3::from(target)) - DVec3::from(eye)).normalize_or(DVec3::X);
-                    let ray = Ray { t_max, ..Ray::new(eye, direction.as_vec3()) };
+                    let ray = Ray { t_min, t_max, ..Ray::new(eye, direction.as_vec3()) };
                     let hit = tracer.first_hit(&ray);
                     let variant = (options.kind(), search.reading);
                     if let Some(complaint) = complaint(&scene, &oracle, &ray, &hit, variant) {
@@ -296,19 +299,30 @@ proptest! {
     }
 }
 
-/// What is wrong with the answers about a ray of a certified tree, if the truth is clear.
+/// The answers to every query about a ray of a certified tree.
+struct Answers {
+    hit: Hit,
+    any: Verdict,
+    exit: Hit,
+}
+
+impl Answers {
+    fn of(tracer: &Tracer<'_, Scene>, ray: &Ray) -> Self {
+        let exit = tracer.first_exit(ray).expect("a certified tree");
+        Self { hit: tracer.first_hit(ray), any: tracer.any_hit(ray), exit }
+    }
+}
+
+/// What is wrong with the answers about a ray, if the truth is clear.
 ///
 /// A root is refined in f64, so t is right to its own rounding to f32, 6e-8 of itself; 1e-6 allows for
 /// rays that graze, whose crossing is known to less.
 fn false_answer(
-    tracer: &Tracer<'_, Scene>,
     (scene, oracle): (&Scene, &Oracle<'_>),
     ray: &Ray,
+    &Answers { hit, any, exit }: &Answers,
 ) -> Option<String> {
     let truth = oracle.first_hit(ray);
-    let hit = tracer.first_hit(ray);
-    let any = tracer.any_hit(ray);
-    let exit = tracer.first_exit(ray).expect("a certified tree");
     if truth.is_ambiguous() {
         return None;
     }
@@ -330,7 +344,7 @@ fn false_answer(
         return Some(format!("{hit:?}: {truth:?}"));
     }
     if truth.verdict != Verdict::Inside {
-        let is_at_start = (exit.verdict, exit.t) == (Verdict::Inside, 0.0);
+        let is_at_start = (exit.verdict, exit.t) == (Verdict::Inside, ray.t_min);
         return (!is_at_start).then(|| format!("{exit:?}: {truth:?}"));
     }
     if truth.exit >= f64::from(ray.t_max) {
@@ -353,10 +367,19 @@ fn false_answers_are_complained_of() {
     let (right, wrong) = (scene(1.0), scene(1.01));
     let tree = Tree::build(&right, &Options::certified()).expect("legal options");
     let tracer = Tracer::new(&tree, &right);
-    for start in [Vec3::new(0.1, 0.2, -4.0), Vec3::ZERO] {
+    for (start, t_inside) in [(Vec3::new(0.1, 0.2, -4.0), 4.0), (Vec3::ZERO, 0.3)] {
         let ray = Ray::new(start, Vec3::Z);
-        assert_eq!(false_answer(&tracer, (&right, &Oracle::new(&right)), &ray), None);
-        assert!(false_answer(&tracer, (&wrong, &Oracle::new(&wrong)), &ray).is_some());
+        let complaint = |scene: &Scene, ray: &Ray, answers: &Answers| {
+            false_answer((scene, &Oracle::new(scene)), ray, answers)
+        };
+        let answers = Answers::of(&tracer, &ray);
+        assert_eq!(complaint(&right, &ray, &answers), None);
+        assert!(complaint(&wrong, &ray, &answers).is_some());
+        for t_min in [t_inside, t_inside + 4.0] {
+            let later = Ray { t_min, ..ray };
+            assert_eq!(complaint(&right, &later, &Answers::of(&tracer, &later)), None);
+            assert!(complaint(&right, &later, &answers).is_some());
+        }
     }
     let published = Tree::build(&right, &Options::fitted()).expect("legal options");
     let tracer = Tracer::new(&published, &right);
@@ -409,7 +432,7 @@ proptest! {
     })]
 
     /// At any scale, from any distance, and from inside: most targets are centres of balls, and a
-    /// third of the rays start there.
+    /// third of the rays start there. Each ray ends early once, and starts late once.
     #[test]
     fn certain_answers_are_the_oracles(
         scene in scenes::any_scene(40),
@@ -437,11 +460,14 @@ proptest! {
             let (start, end) = if at % 3 == 0 { (center, target) } else { (far, center) };
             let offset = DVec3::from(end) - DVec3::from(start);
             let ray = Ray::new(start, offset.normalize_or(DVec3::X).as_vec3());
-            let complaint = false_answer(&tracer, (&scene, &oracle), &ray);
-            prop_assert!(complaint.is_none(), "{ray:?}: {complaint:?}");
-            let limited = Ray { t_max: scale, ..ray };
-            let complaint = false_answer(&tracer, (&scene, &oracle), &limited);
-            prop_assert!(complaint.is_none(), "{limited:?}: {complaint:?}");
+            let t_min = [0.5, 0.9, 1.0, 1.1, 2.0][at % 5] * offset.length() as f32;
+            let later = Ray { t_min, ..ray };
+            let part = Ray { t_max: t_min + scale, ..later };
+            for ray in [ray, Ray { t_max: scale, ..ray }, later, part] {
+                let answers = Answers::of(&tracer, &ray);
+                let complaint = false_answer((&scene, &oracle), &ray, &answers);
+                prop_assert!(complaint.is_none(), "{ray:?}: {complaint:?}");
+            }
         }
     }
 }

@@ -46,7 +46,7 @@ pub struct Baseline<'a> {
 /// Hits of rays, and the time and work that they took.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
-    /// Each ray's first surface point.
+    /// Each ray's first surface point, at its `t_min` where it starts inside.
     pub hits: Vec<Hit>,
     /// Time for finding and sorting the intersections with effective spheres, summed over threads.
     pub traversal: Duration,
@@ -106,7 +106,7 @@ impl<'a> Baseline<'a> {
             .map(|ray| {
                 let first = chords.len();
                 let kernel_sphere = self.tree.chords(ray, &mut stack, &mut chords);
-                (Intervals::new(&chords[first..], kernel_sphere), first..chords.len())
+                (Intervals::new(&chords[first..], ray, kernel_sphere), first..chords.len())
             })
             .collect();
         let traversal = start.elapsed();
@@ -131,12 +131,12 @@ impl<'a> Baseline<'a> {
         traced: &mut Traced,
     ) -> Hit {
         let mut search = clipping::Search::new(self.threshold);
-        let found = intervals.first_hit(self.scene, chords, f64::from(ray.t_max), &mut search);
+        let found = intervals.first_hit(self.scene, chords, &mut search);
         traced.searches += search.searches;
         traced.iterations += search.iterations;
         traced.most_iterations = traced.most_iterations.max(search.most_iterations);
         let Some(t) = found else { return Hit::MISS };
-        let verdict = if t > 0.0 { Verdict::Hit } else { Verdict::Inside };
+        let verdict = if t > f64::from(ray.t_min) { Verdict::Hit } else { Verdict::Inside };
         let t = t as f32;
         Hit { verdict, fallback: false, t, normal: normal(self.scene, chords, ray, t) }
     }

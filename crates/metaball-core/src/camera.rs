@@ -304,7 +304,7 @@ impl View {
             let direction = (columns[column] + above[row]).normalize().as_vec3();
             let opaque = self.opaque_distance().map(|distances| distances[first + pixel]);
             let t_max = opaque.map_or(NO_LIMIT, |distance| distance.min(NO_LIMIT));
-            Ray { origin: camera.eye, direction, t_max }
+            Ray { t_max, ..Ray::new(camera.eye, direction) }
         };
         (0..columns.len() * above.len()).into_par_iter().map(ray).collect()
     }
@@ -354,7 +354,7 @@ mod tests {
             let (column, row) = (pixel % width, pixel / width);
             let direction = view.camera().exact_direction(column, row, width, height).as_vec3();
             let t_max = [2.5, NO_LIMIT][pixel as usize % 2];
-            assert_eq!(ray, Ray { origin: view.camera().eye(), direction, t_max });
+            assert_eq!(ray, Ray { t_max, ..Ray::new(view.camera().eye(), direction) });
         }
     }
 

@@ -24,12 +24,12 @@
 //! # Conventions
 //! - *Space*: the world is right-handed. Lengths are scene units, whatever the scene's author measured in;
 //!   strengths, the field and T have no unit.
-//! - *Rays*: the points `origin + t * direction` with 0 ≤ t ≤ `t_max`. Directions are unit to rounding and
-//!   never normalised again, so that t means the same, in scene units, to every method and to the
+//! - *Rays*: the points `origin + t * direction` with `t_min` ≤ t ≤ `t_max`. Directions are unit to rounding
+//!   and never normalised again, so that t means the same, in scene units, to every method and to the
 //!   reference ([`Ray`]).
 //! - *Verdicts*: a ray is a [`Hit`](Verdict::Hit) at the smallest t where F rises from below T to T, a
-//!   [`Miss`](Verdict::Miss) where F stays below T, and [`Inside`](Verdict::Inside) at t = 0 where it starts
-//!   with F ≥ T. A method whose arithmetic cannot decide says [`Undecided`](Verdict::Undecided).
+//!   [`Miss`](Verdict::Miss) where F stays below T, and [`Inside`](Verdict::Inside) at t = `t_min` where it
+//!   starts with F ≥ T. A method whose arithmetic cannot decide says [`Undecided`](Verdict::Undecided).
 //! - *Normals* are unit vectors out of the solid, against the gradient of F.
 //! - *Images* are stored row by row from the top left. Colours are sRGB-encoded where they are stored and
 //!   linear where they are blended or lit.

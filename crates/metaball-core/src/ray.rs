@@ -1,24 +1,38 @@
 //! Rays and hits.
 
+use std::cmp::Ordering;
+
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-/// The points `origin + t * direction` with 0 ≤ t ≤ `t_max`; the same bit for bit to every method and
-/// to the reference.
+/// The points `origin + t * direction` with `t_min` ≤ t ≤ `t_max`; the same bit for bit to every method
+/// and to the reference.
+///
+/// A ray starts at `t_min`. The rays of a view start at its eye, and shaders know no others than those
+/// that start at their origin: a frame's rays and a batch's have a `t_min` of 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Start, world space, scene units.
+    /// Where t is 0, world space, scene units.
     pub origin: Vec3,
     /// Direction, unit to rounding (6e-8). Never normalised again: t counts this vector.
     pub direction: Vec3,
+    /// Least t, scene units, not negative: 0 where the ray starts at its origin, more where what lies
+    /// before that does not count.
+    pub t_min: f32,
     /// Greatest t, scene units, where something opaque ends the ray; [`NO_LIMIT`] where nothing does.
     pub t_max: f32,
 }
 
 impl Ray {
-    /// A ray without an end.
+    /// A ray from its origin, without an end.
     pub const fn new(origin: Vec3, direction: Vec3) -> Self {
-        Self { origin, direction, t_max: NO_LIMIT }
+        Self { origin, direction, t_min: 0.0, t_max: NO_LIMIT }
+    }
+
+    /// Whether it has no points, which is a miss: `t_min` above `t_max`, or a NaN among them.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.t_min.partial_cmp(&self.t_max).is_none_or(Ordering::is_gt)
     }
 }
 
@@ -33,7 +47,7 @@ pub enum Verdict {
     Miss = 0,
     /// The field first reaches T at the hit's distance.
     Hit = 1,
-    /// The field is T or more where the ray starts; the hit is there, at t = 0.
+    /// The field is T or more where the ray starts; the hit is there, at t = `t_min`.
     Inside = 2,
     /// Arithmetic could not decide, not even at the last float. Only methods that certify their answers
     /// report it.
@@ -47,7 +61,7 @@ pub struct Hit {
     pub verdict: Verdict,
     /// Whether a rule that the method's paper publishes for trouble made this hit.
     pub fallback: bool,
-    /// t of the hit, scene units: 0 inside, +∞ for a miss.
+    /// t of the hit, scene units: the ray's `t_min` inside, +∞ for a miss.
     pub t: f32,
     /// Unit vector out of the solid, against the field's gradient, world space; zero for a miss.
     pub normal: Vec3,

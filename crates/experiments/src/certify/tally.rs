@@ -213,7 +213,7 @@ impl Tally {
         if is_wrong {
             count.wrong += 1;
             if self.wrong.len() < MOST_KEPT {
-                let Ray { origin, direction, t_max } = ray.ray;
+                let Ray { origin, direction, t_max, .. } = ray.ray;
                 self.wrong.push(Wrong {
                     test_scene: check.test_scene.to_owned(),
                     category,

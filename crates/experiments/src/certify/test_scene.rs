@@ -290,7 +290,7 @@ impl Rays {
             _ => RayQuery::FirstHit,
         };
         let free = |(index, (ray, _)): (usize, &&(TestRay, Truth))| {
-            FreeRay::new(&ray.ray, query(index, ray))
+            FreeRay::new(&ray.ray, query(index, ray)).expect("a ray from its origin")
         };
         let batch: Vec<_> = some.iter().enumerate().map(free).collect();
         let hits = answer(&batch)?;

@@ -17,14 +17,14 @@ impl<F: Field> Published<'_, F> {
     /// Where the ray first enters the solid.
     pub(super) fn hit(&self, ray: &Ray, counter: &mut impl Counter) -> SurfaceHit {
         if let Some(leaf) = self.start_inside(ray, counter) {
-            return self.tree.hit_at(Verdict::Inside, leaf, ray, 0.0);
+            return self.tree.hit_at(Verdict::Inside, leaf, ray, ray.t_min);
         }
         let tree = self.tree.tree;
         let found = if tree.kind == Kind::ModifiedBvh {
             // The search sees beyond the nearest hit so far: its bracket ends at a projection, which
             // may lie behind it though the surface is in front.
             tree.nearest_of_all(ray, counter, |leaf, counter| {
-                self.leaf(leaf, ray).root((0.0, ray.t_max), counter)
+                self.leaf(leaf, ray).root((ray.t_min, ray.t_max), counter)
             })
         } else {
             tree.first_in_order(ray, counter, |leaf, interval, counter| {
@@ -52,17 +52,21 @@ impl<F: Field> Published<'_, F> {
     /// Lists of the Fitted BVH are complete in the leaf's box. Those of the modified BVH are so in
     /// the supports of the leaf's own balls.
     fn start_inside(&self, ray: &Ray, counter: &mut impl Counter) -> Option<usize> {
+        if ray.is_empty() {
+            return None;
+        }
         let FieldTree { tree, field } = *self.tree;
+        let start = ray.origin + ray.t_min * ray.direction;
         let is_complete = |leaf| {
             let mut own = tree.leaf_balls(leaf).0.iter();
             tree.kind == Kind::Fitted
                 || own.any(|&ball| {
                     let support = field.support(ball as usize);
-                    support.center.distance_squared(ray.origin) <= support.radius.powi(2)
+                    support.center.distance_squared(start) <= support.radius.powi(2)
                 })
         };
-        tree.leaf_around(ray.origin, is_complete)
-            .filter(|&leaf| self.tree.value(leaf, ray, 0.0, counter) >= field.threshold())
+        tree.leaf_around(|bounds| bounds.contains(start), is_complete)
+            .filter(|&leaf| self.tree.value(leaf, ray, ray.t_min, counter) >= field.threshold())
     }
 
     fn leaf<'a>(&'a self, leaf: usize, ray: &'a Ray) -> LeafSearch<'a, F> {

@@ -38,7 +38,7 @@ impl Default for SecantSearch {
 /// affected: section 4 leaves no choice, and it is always read as [`Reading::Literal`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Reading {
-    /// Projections count wherever they fall, the bracket starts at the ray's origin, and the leaf's
+    /// Projections count wherever they fall, the bracket starts where the ray does, and the leaf's
     /// list is used even outside its box, where it is incomplete.
     Literal,
     /// Only the ray's interval inside the box counts: the field is tested at both of its ends and at
@@ -86,7 +86,7 @@ impl<F: Field> LeafSearch<'_, F> {
         };
         match reading {
             Reading::Literal => {
-                let (start, stop) = (0.0, ray.t_max);
+                let (start, stop) = (ray.t_min, ray.t_max);
                 let inside = self.bracket_end(projected, (start, stop), false, counter)?;
                 let outside = (start, self.excess(start, counter));
                 Some(Bracket { outside, inside })

@@ -7,6 +7,7 @@ use metaball_core::{Aabb, Ray};
 pub(super) struct Slabs {
     origin: Vec3,
     inverse: Vec3,
+    t_min: f32,
     /// Per axis: whether the ray goes towards −∞.
     is_negative: [bool; 3],
 }
@@ -19,17 +20,18 @@ impl Slabs {
     pub(super) fn new(ray: &Ray) -> Self {
         let inverse = ray.direction.recip();
         let is_negative = inverse.to_array().map(f32::is_sign_negative);
-        Self { origin: ray.origin, inverse, is_negative }
+        Self { origin: ray.origin, inverse, t_min: ray.t_min, is_negative }
     }
 
-    /// Where the ray enters and leaves the closed box, within 0 ≤ t ≤ `t_max`; `None` where it
+    /// Where the ray enters and leaves the closed box, within the ray's `t_min` ≤ t ≤ `t_max`;
+    /// `None` where it
     /// misses it.
     ///
     /// A ray that lies in the plane of a face has 0·∞ = NaN there; no comparison with it holds,
     /// which counts the face as part of the box.
     #[inline]
     pub(super) fn crossing(&self, bounds: &Aabb, t_max: f32) -> Option<(f32, f32)> {
-        let (mut enter, mut leave) = (0.0f32, t_max);
+        let (mut enter, mut leave) = (self.t_min, t_max);
         for axis in 0..3 {
             let faces = [bounds.min[axis], bounds.max[axis]];
             let first = usize::from(self.is_negative[axis]);

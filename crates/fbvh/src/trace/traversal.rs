@@ -1,7 +1,6 @@
 //! Orders in which a ray visits the leaves of a tree.
 
-use glam::Vec3;
-use metaball_core::Ray;
+use metaball_core::{Aabb, Ray};
 
 use super::counter::Counter;
 use super::slabs::Slabs;
@@ -118,9 +117,13 @@ impl Tree {
         }
     }
 
-    /// A leaf that satisfies the test, of those whose boxes contain the point.
-    pub(super) fn leaf_around(&self, point: Vec3, test: impl Fn(usize) -> bool) -> Option<usize> {
-        if !self.bounds.contains(point) {
+    /// A leaf that satisfies the test, of those whose boxes contain a point.
+    pub(super) fn leaf_around(
+        &self,
+        contains: impl Fn(&Aabb) -> bool,
+        test: impl Fn(usize) -> bool,
+    ) -> Option<usize> {
+        if !contains(&self.bounds) {
             return None;
         }
         let mut stack = Stack::new();
@@ -129,8 +132,8 @@ impl Tree {
             match Child::read(next)? {
                 Child::Node(node) => {
                     let node = &self.nodes[node];
-                    let left = node.left_bounds().contains(point);
-                    let right = node.right_bounds().contains(point);
+                    let left = contains(&node.left_bounds());
+                    let right = contains(&node.right_bounds());
                     next = match (left, right) {
                         (true, true) => {
                             stack.push(node.right, 0.0);

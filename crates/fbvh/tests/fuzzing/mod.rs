@@ -82,13 +82,16 @@ pub(crate) fn build_and_trace(bytes: &[u8]) -> Outcome {
     let ends = field.balls.iter().take(16).map(|ball| ball.center).chain([Vec3::X, Vec3::ZERO]);
     let mut hits = 0;
     for end in ends {
-        let ray = Ray::new(start, (end - start).normalize_or(Vec3::Z));
-        for (tree, options) in trees.iter().zip(structures) {
+        let whole = Ray::new(start, (end - start).normalize_or(Vec3::Z));
+        let later = Ray { t_min: start.distance(end), ..whole };
+        let rays = [whole, later];
+        let traced = trees.iter().zip(structures).flat_map(|tree| rays.map(|ray| (ray, tree)));
+        for (ray, (tree, options)) in traced {
             let tree = tree.as_ref().expect("a scene has a tree");
             let tracer = Tracer::new(tree, &field);
             let (hit, any, exit) =
                 (tracer.first_hit(&ray), tracer.any_hit(&ray), tracer.first_exit(&ray));
-            assert!(!hit.is_hit() || hit.t >= 0.0, "{ray:?}: {hit:?}");
+            assert!(!hit.is_hit() || hit.t >= ray.t_min, "{ray:?}: {hit:?}");
             assert_eq!(exit.is_ok(), options == Options::certified());
             if options != Options::certified() || !is_tame {
                 continue;

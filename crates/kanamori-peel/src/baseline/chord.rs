@@ -28,12 +28,13 @@ impl Chord {
         self.middle + self.half_squared.sqrt()
     }
 
-    /// t at which the ray enters the kernel sphere, 0 with its start inside; infinite where it does not.
-    pub(super) fn kernel_sphere(&self) -> f64 {
+    /// t at which a ray that starts at `t_min` enters the kernel sphere, `t_min` with its start inside;
+    /// infinite where it does not.
+    pub(super) fn kernel_sphere(&self, t_min: f64) -> f64 {
         if self.kernel_half_squared < 0.0 {
             return f64::INFINITY;
         }
         let half = self.kernel_half_squared.sqrt();
-        if self.middle + half < 0.0 { f64::INFINITY } else { (self.middle - half).max(0.0) }
+        if self.middle + half < t_min { f64::INFINITY } else { (self.middle - half).max(t_min) }
     }
 }

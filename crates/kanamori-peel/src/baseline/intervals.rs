@@ -1,6 +1,6 @@
 //! Nishita and Nakamae's intervals along one ray (section 3.1).
 
-use metaball_core::Scene;
+use metaball_core::{Ray, Scene};
 
 use super::bernstein::Sum;
 use super::chord::Chord;
@@ -11,35 +11,37 @@ use super::clipping::Search;
 pub(super) struct Intervals {
     /// t, and whose chord begins or ends there.
     points: Vec<(f64, usize)>,
+    start: f64,
+    end: f64,
     kernel_sphere: f64,
 }
 
 impl Intervals {
     /// Sorts the ends of the chords.
-    pub(super) fn new(chords: &[Chord], kernel_sphere: f64) -> Self {
+    pub(super) fn new(chords: &[Chord], ray: &Ray, kernel_sphere: f64) -> Self {
+        let (start, end) = (f64::from(ray.t_min), f64::from(ray.t_max));
         let mut points = Vec::with_capacity(2 * chords.len());
         for (index, chord) in chords.iter().enumerate() {
-            let enter = chord.enter().max(0.0);
+            let enter = chord.enter().max(start);
             if enter <= kernel_sphere {
                 points.push((enter, index));
                 points.push((chord.leave(), index));
             }
         }
         points.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
-        Self { points, kernel_sphere }
+        Self { points, start, end, kernel_sphere }
     }
 
-    /// t of the first surface point up to `limit`.
+    /// t of the ray's first surface point.
     pub(super) fn first_hit(
         &self,
         scene: &Scene,
         chords: &[Chord],
-        limit: f64,
         search: &mut Search,
     ) -> Option<f64> {
-        let end = self.kernel_sphere.min(limit);
+        let end = self.kernel_sphere.min(self.end);
         let mut active: Vec<usize> = Vec::new();
-        let mut low = 0.0;
+        let mut low = self.start;
         for &(t, ball) in &self.points {
             let high = t.min(end);
             if high > low {
@@ -57,7 +59,7 @@ impl Intervals {
             }
         }
         // A kernel sphere lies in the solid: a ray that reaches it has hit.
-        (self.kernel_sphere <= limit).then_some(self.kernel_sphere)
+        (self.kernel_sphere <= self.end).then_some(self.kernel_sphere)
     }
 }
 

@@ -123,7 +123,7 @@ impl Tree {
                 Content::Leaf(leaf) => {
                     for ball in self.leaves[leaf as usize].met(ray) {
                         let Some(chord) = self.chord(ball, ray) else { continue };
-                        kernel_sphere = kernel_sphere.min(chord.kernel_sphere());
+                        kernel_sphere = kernel_sphere.min(chord.kernel_sphere(ray.t_min.into()));
                         limit = limit.min(round_up(kernel_sphere));
                         chords.push(chord);
                     }
@@ -170,7 +170,7 @@ impl Tree {
                 -1.0
             },
         };
-        (chord.half_squared > 0.0 && chord.leave() > 0.0).then_some(chord)
+        (chord.half_squared > 0.0 && chord.leave() > f64::from(ray.t_min)).then_some(chord)
     }
 
     /// Bytes held.
@@ -232,6 +232,7 @@ fn round_up(t: f64) -> f32 {
 struct Slabs {
     origin: Vec3,
     inverse: Vec3,
+    t_min: f32,
 }
 
 impl Slabs {
@@ -240,7 +241,7 @@ impl Slabs {
         let away = |d: f32| if d.abs() < 1e-20 { 1e-20f32.copysign(d) } else { d };
         let direction = ray.direction;
         let direction = Vec3::new(away(direction.x), away(direction.y), away(direction.z));
-        Self { origin: ray.origin, inverse: direction.recip() }
+        Self { origin: ray.origin, inverse: direction.recip(), t_min: ray.t_min }
     }
 
     /// t at which the ray enters the box, with a margin for the three roundings of each crossing.
@@ -250,7 +251,7 @@ impl Slabs {
         let other = (bounds.max - self.origin) * self.inverse;
         let enter = one.min(other).max_element();
         let leave = one.max(other).min_element();
-        let enter = (enter - ROUNDING * enter.abs()).max(0.0);
+        let enter = (enter - ROUNDING * enter.abs()).max(self.t_min);
         (enter <= leave + ROUNDING * leave.abs() && enter <= limit).then_some(enter)
     }
 }

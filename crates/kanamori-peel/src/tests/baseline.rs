@@ -1,7 +1,7 @@
 //! The CPU baseline against the oracle.
 
 use glam::Vec3;
-use metaball_core::reference::Oracle;
+use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Camera, Hit, HostMethod, Kernel, Metaball, Ray, Scene, Verdict};
 
 use super::random::Random;
@@ -67,12 +67,21 @@ fn overlap_and_coincident_points_are_right() {
 }
 
 #[test]
-fn the_eye_may_be_among_the_balls_and_rays_may_end() {
+fn the_eye_may_be_among_the_balls_and_rays_may_start_late_and_end() {
     let scene = scene(Kernel::QUARTIC, 120, 5.0);
     assert_right(&scene, &rays(1.0), 0);
     let baseline = Baseline::build(&scene, 1e-3).expect("a polynomial");
     let short: Vec<_> = rays(8.0).into_iter().map(|ray| Ray { t_max: 1.0, ..ray }).collect();
     assert!(baseline.trace(&short).hits.iter().all(|hit| *hit == Hit::MISS));
+    // From the middle of the scene on, and from behind it; the rays' origins are no starts.
+    for t_min in [8.0, 14.0] {
+        let late: Vec<_> = rays(8.0).into_iter().map(|ray| Ray { t_min, ..ray }).collect();
+        assert_right(&scene, &late, 0);
+        let truths = Oracle::new(&scene).first_hits(&rays(8.0));
+        let traced = baseline.trace(&late);
+        let differs = |(truth, hit): (&Truth, &Hit)| (truth.t - f64::from(hit.t)).abs() > 1e-2;
+        assert!(truths.iter().zip(&traced.hits).filter(|pair| differs(*pair)).count() > 100);
+    }
 }
 
 #[test]

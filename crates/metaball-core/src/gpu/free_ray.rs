@@ -11,7 +11,8 @@ impl RayQuery {
     pub const CONSTANT: &str = "2";
 }
 
-/// A ray of a batch, 32 bytes: WGSL's `FreeRay` of `shaders/wgsl/batch/free_ray.wgsl`.
+/// A ray of a batch, 32 bytes: WGSL's `FreeRay` of `shaders/wgsl/batch/free_ray.wgsl`. It starts at its
+/// origin.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct FreeRay {
@@ -33,15 +34,16 @@ impl FreeRay {
     /// A ray that is not traced.
     pub const NONE: Self = Self { origin: Vec3::ZERO, t_max: 0.0, direction: Vec3::ZERO, query: 0 };
 
-    /// The ray with its query.
-    pub fn new(ray: &Ray, query: RayQuery) -> Self {
-        let Ray { origin, direction, t_max } = *ray;
-        Self { origin, t_max, direction, query: query as u32 }
+    /// The ray with its query; `None` for a ray that starts anywhere but at its origin, `t_min` other than
+    /// 0, which shaders do not have.
+    pub fn new(ray: &Ray, query: RayQuery) -> Option<Self> {
+        let Ray { origin, direction, t_min, t_max } = *ray;
+        (t_min == 0.0).then_some(Self { origin, t_max, direction, query: query as u32 })
     }
 
     /// The points that it covers.
     pub fn ray(&self) -> Ray {
-        Ray { origin: self.origin, direction: self.direction, t_max: self.t_max }
+        Ray { t_max: self.t_max, ..Ray::new(self.origin, self.direction) }
     }
 
     /// Its query, answered or not; `None` for a ray without one.

@@ -224,7 +224,7 @@ impl Targets {
     /// When the device fails.
     pub fn read_rays(&self, gpu: &Gpu, view: &View) -> Result<Vec<Ray>, RenderError> {
         let origin = view.camera().eye();
-        let unpack = |ray: PackedRay| Ray { origin, direction: ray.direction, t_max: ray.t_max };
+        let unpack = |ray: PackedRay| Ray { t_max: ray.t_max, ..Ray::new(origin, ray.direction) };
         Ok(gpu.read::<PackedRay>(&self.rays)?.into_iter().map(unpack).collect())
     }
 

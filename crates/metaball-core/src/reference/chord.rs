@@ -4,19 +4,22 @@ use glam::DVec3;
 
 use crate::{Metaball, Ray};
 
-/// The points `origin + t * direction`, 0 ≤ t ≤ `end`.
+/// The points `origin + t * direction`, `start` ≤ t ≤ `end`.
 pub(super) struct Line {
     pub(super) origin: DVec3,
     direction: DVec3,
+    pub(super) start: f64,
     pub(super) end: f64,
 }
 
 impl Line {
     pub(super) fn new(ray: &Ray) -> Self {
+        let direction = ray.direction.as_dvec3();
         Self {
             origin: ray.origin.as_dvec3(),
-            direction: ray.direction.as_dvec3(),
-            end: f64::from(ray.t_max).max(0.0),
+            direction: if direction.is_finite() { direction } else { DVec3::ZERO },
+            start: ray.t_min.into(),
+            end: ray.t_max.into(),
         }
     }
 
@@ -26,7 +29,7 @@ impl Line {
 
     /// Whether the line may enter the box. Errs towards yes by a few roundings.
     pub(super) fn meets(&self, min: DVec3, max: DVec3) -> bool {
-        let (mut near, mut far) = (0.0f64, self.end);
+        let (mut near, mut far) = (self.start, self.end);
         for axis in 0..3 {
             let direction = self.direction[axis];
             let (low, high) = (min[axis] - self.origin[axis], max[axis] - self.origin[axis]);
@@ -59,7 +62,7 @@ pub(super) struct Chord {
 }
 
 impl Chord {
-    /// `None` where the line misses the ball, or meets it only outside 0 ≤ t ≤ `end`.
+    /// `None` where the line misses the ball, or meets it only outside `start` ≤ t ≤ `end`.
     pub(super) fn new(line: &Line, ball: &Metaball) -> Option<Self> {
         let squared_length = line.direction.length_squared();
         let center = ball.center.as_dvec3();
@@ -79,7 +82,7 @@ impl Chord {
             strength: f64::from(ball.strength),
         };
         // Comparisons with NaN are false: a line without direction has no chords.
-        (half > 0.0 && chord.start() < line.end && chord.end() > 0.0).then_some(chord)
+        (half > 0.0 && chord.start() < line.end && chord.end() > line.start).then_some(chord)
     }
 
     pub(super) fn start(&self) -> f64 {

@@ -19,8 +19,8 @@ const GUARD: f64 = 1e-12;
 pub struct March {
     /// `Undecided` when the field might reach T between `low` and `high` only.
     pub verdict: Verdict,
-    /// The first hit lies between `low` and `high`, in t as for [`Hit`](crate::Hit): both 0 inside,
-    /// both +∞ for a miss.
+    /// The first hit lies between `low` and `high`, in t as for [`Hit`](crate::Hit): both `t_min`
+    /// inside, both +∞ for a miss.
     pub low: f64,
     /// See `low`.
     pub high: f64,
@@ -33,13 +33,18 @@ pub struct March {
 pub fn march(scene: &Scene, ray: &Ray) -> March {
     let threshold = f64::from(scene.threshold());
     let profiles = Profiles::new(scene, ray);
-    if profiles.field(0.0) >= threshold {
-        return March { verdict: Verdict::Inside, low: 0.0, high: 0.0 };
+    let nothing = March { verdict: Verdict::Miss, low: f64::INFINITY, high: f64::INFINITY };
+    if ray.is_empty() {
+        return nothing;
+    }
+    let start = f64::from(ray.t_min);
+    if profiles.field(start) >= threshold {
+        return March { verdict: Verdict::Inside, low: start, high: start };
     }
 
     // Start of the undecided intervals that end where the present one begins.
     let mut undecided: Option<f64> = None;
-    let mut pending = vec![(0.0, profiles.end)];
+    let mut pending = vec![(start, profiles.end)];
     while let Some((from, to)) = pending.pop() {
         if profiles.upper_bound(from, to) * (1.0 + GUARD) < threshold {
             if let Some(low) = undecided {
@@ -59,7 +64,7 @@ pub fn march(scene: &Scene, ray: &Ray) -> March {
     }
     match undecided {
         Some(low) => March { verdict: Verdict::Undecided, low, high: profiles.end },
-        None => March { verdict: Verdict::Miss, low: f64::INFINITY, high: f64::INFINITY },
+        None => nothing,
     }
 }
 
@@ -87,7 +92,7 @@ impl<'a> Profiles<'a> {
             scene,
             origin,
             direction,
-            end: balls.iter().map(reach).fold(0.0, f64::max).min(f64::from(ray.t_max)).max(0.0),
+            end: balls.iter().map(reach).fold(ray.t_min.into(), f64::max).min(ray.t_max.into()),
             smallest_radius: scene
                 .supports()
                 .iter()

@@ -78,7 +78,7 @@ pub struct Oracle<'a> {
 pub struct Truth {
     /// `Miss`, `Hit` or `Inside`; never `Undecided`.
     pub verdict: Verdict,
-    /// The t of the first hit, in scene units; 0 inside, +∞ for a miss.
+    /// The t of the first hit, in scene units; the ray's `t_min` inside, +∞ for a miss.
     pub t: f64,
     /// The t after that at which the field falls below T again; `t_max` where the ray ends first, +∞ for
     /// a miss.
@@ -104,6 +104,16 @@ impl Truth {
     /// some tens of balls.
     pub const AMBIGUOUS: f64 = 1e-5;
 
+    /// Of a ray without points: a miss, whatever the field.
+    const NOTHING: Self = Self {
+        verdict: Verdict::Miss,
+        t: f64::INFINITY,
+        exit: f64::INFINITY,
+        normal: DVec3::ZERO,
+        margin: f64::INFINITY,
+        smallest_radius: 0.0,
+    };
+
     /// Whether f32 arithmetic may rightly end at another verdict: the margin is at most
     /// [`Truth::AMBIGUOUS`].
     pub fn is_ambiguous(&self) -> bool {
@@ -117,13 +127,16 @@ impl<'a> Oracle<'a> {
         Self { scene, tree: Tree::new(scene.supports()) }
     }
 
-    /// The first hit. A ray with a NaN, or with a zero direction, is the point where it starts;
-    /// a negative `t_max` counts as 0.
+    /// The first hit. A ray without a direction, which is zero or not finite, is the point of its origin.
+    /// A ray [without points](Ray::is_empty) is a miss.
     pub fn first_hit(&self, ray: &Ray) -> Truth {
         let threshold = f64::from(self.scene.threshold());
+        if ray.is_empty() {
+            return Truth::NOTHING;
+        }
         let line = Line::new(ray);
-        let mut walk = Walk::new(threshold, self.field(line.origin));
-        sweep(&self.chords(&line), line.end, self.scene.kernel(), &mut walk);
+        let mut walk = Walk::new(threshold, line.start, self.field(line.at(line.start)));
+        sweep(&self.chords(&line), &line, self.scene.kernel(), &mut walk);
         walk.end(line.end, self.field(line.at(line.end)));
 
         let (verdict, t) = walk.first_hit();

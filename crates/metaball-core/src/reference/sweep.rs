@@ -2,19 +2,24 @@
 
 use std::ops::ControlFlow;
 
-use super::{chord::Chord, interval::Interval, walk::Walk};
+use super::{
+    chord::{Chord, Line},
+    interval::Interval,
+    walk::Walk,
+};
 use crate::Kernel;
 
-/// Leads the walk along the ray from 0 to `end`, or until its first sheet has been left.
+/// Leads the walk along the line from its start to its end, or until its first sheet has been left.
 ///
 /// Ends of chords are the *events* of a ray. An interval between two events is halved at the event in
 /// the middle until it is settled or a segment. So thousands of chords that end close together, as those of
 /// nearly coincident balls do, cost no more than their number times its logarithm.
-pub(super) fn sweep(chords: &[Chord], end: f64, kernel: Kernel, walk: &mut Walk) {
+pub(super) fn sweep(chords: &[Chord], line: &Line, kernel: Kernel, walk: &mut Walk) {
+    let Line { start, end, .. } = *line;
     let mut events: Vec<f64> = chords
         .iter()
-        .flat_map(|chord| [chord.start().max(0.0), chord.end().min(end)])
-        .chain([0.0, end])
+        .flat_map(|chord| [chord.start().max(start), chord.end().min(end)])
+        .chain([start, end])
         .collect();
     events.sort_unstable_by(f64::total_cmp);
     events.dedup();

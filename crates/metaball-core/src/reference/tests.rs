@@ -268,6 +268,30 @@ mod edges {
     }
 
     #[test]
+    fn rays_start_where_they_say() {
+        let scene = one_ball(0.75);
+        let trace = |t_min, t_max| {
+            let ray = Ray { t_min, t_max, ..Ray::new(Vec3::X * 3.0, Vec3::NEG_X) };
+            Oracle::new(&scene).first_hit(&ray)
+        };
+        // The ball spans t from 2.5 to 3.5.
+        let whole = trace(0.0, NO_LIMIT);
+        assert_eq!(trace(2.25, NO_LIMIT).t, whole.t);
+        let inside = trace(2.75, NO_LIMIT);
+        assert_eq!((inside.verdict, inside.t, inside.exit), (Verdict::Inside, 2.75, 3.5));
+        assert_eq!(inside.normal, DVec3::X);
+        // At the start the field is 1 − 0.25².
+        approx::assert_abs_diff_eq!(inside.margin, 0.9375 / 0.75 - 1.0, epsilon = 1e-9);
+        assert_eq!(trace(2.75, 3.0).exit, 3.0);
+        assert_eq!(trace(2.75, 2.75).verdict, Verdict::Inside);
+        assert_eq!(trace(3.75, NO_LIMIT).verdict, Verdict::Miss);
+        for (t_min, t_max) in [(3.0, 2.9), (3.0, f32::NAN), (f32::NAN, 4.0)] {
+            let nothing = trace(t_min, t_max);
+            assert_eq!((nothing.verdict, nothing.margin), (Verdict::Miss, f64::INFINITY));
+        }
+    }
+
+    #[test]
     fn rays_without_meaning_do_no_harm() {
         for kernel in Kernel::all() {
             let scene = scene([Metaball::new(Vec3::ZERO, 1.0)], kernel, 0.5);
@@ -347,7 +371,10 @@ mod against_marching {
                 let distance = reach * random.unit();
                 let ray = random.ray(scene, distance);
                 let t_max = if random.unit() < 0.2 { 3.0 * random.unit() } else { NO_LIMIT };
-                Ray { t_max, ..ray }
+                // Before the balls, among them, behind them, and behind the ray's end.
+                let t_min =
+                    if random.unit() < 0.3 { distance + 2.0 * random.unit() - 1.0 } else { 0.0 };
+                Ray { t_min: t_min.max(0.0), t_max, ..ray }
             })
             .collect()
     }
@@ -372,8 +399,8 @@ mod against_marching {
         }
     }
 
-    /// Canary: one ball less, or one moved by a thousandth of its radius, must be noticed on rays
-    /// towards that ball.
+    /// Canary: one ball less, one moved by a thousandth of its radius, or a start that is ignored must be
+    /// noticed on rays towards that ball.
     #[test]
     fn a_wrong_oracle_is_caught() {
         for kernel in Kernel::all() {
@@ -393,6 +420,14 @@ mod against_marching {
                 ball
             });
             assert!(compare(&scene(moved, kernel, threshold), &right, &rays)[1] > 10, "{kernel}");
+
+            let late = |ray: &&Ray| ray.t_min > 0.0 && !ray.is_empty();
+            let differs = |ray: &Ray| {
+                let whole = Ray { t_min: 0.0, ..*ray };
+                let truth = Oracle::new(&right).first_hit(&whole);
+                agree(&right, &truth, &march(&right, ray)) == Some(false)
+            };
+            assert!(rays.iter().filter(late).any(differs), "{kernel}");
         }
     }
 }

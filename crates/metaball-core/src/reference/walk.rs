@@ -38,13 +38,13 @@ enum State {
 }
 
 impl Walk {
-    /// Begins at t = 0 with the field there.
-    pub(super) fn new(threshold: f64, at_start: f64) -> Self {
+    /// Begins at `t` with the field there.
+    pub(super) fn new(threshold: f64, t: f64, at_start: f64) -> Self {
         let is_inside = at_start >= threshold;
         Self {
             threshold,
             state: if is_inside { State::Inside } else { State::Before },
-            entry: if is_inside { 0.0 } else { f64::INFINITY },
+            entry: if is_inside { t } else { f64::INFINITY },
             exit: f64::INFINITY,
             highest_before: at_start,
             highest_inside: at_start,

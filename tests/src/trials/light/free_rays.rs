@@ -34,6 +34,10 @@ fn in_cube(index: usize) -> Vec3 {
     (index as f32 * Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5)).fract()
 }
 
+fn free_ray(ray: &Ray, query: RayQuery) -> FreeRay {
+    FreeRay::new(ray, query).expect("a ray from its origin")
+}
+
 /// Rays with starts and directions all over the scene, one a pixel or so many, in the solid and out of it, some
 /// of them short, and some no longer than rounding.
 fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), Failed> {
@@ -49,12 +53,12 @@ fn rays_from_anywhere(gpu: &Gpu, bench: &BenchScene, most: usize) -> Result<(), 
             // Half of the others start outside: they are out at once, though the ray meets the solid.
             let is_inside = || oracle.field(origin.as_dvec3()) > 1.01 * threshold;
             if index % 3 == 0 && (index % 2 == 0 || is_inside()) {
-                return FreeRay::new(&ray, RayQuery::Exit);
+                return free_ray(&ray, RayQuery::Exit);
             }
             let width = bounds.extent().x;
             let t_max = [NO_LIMIT, 0.2 * width, 1e-9 * width][index % 5 % 3];
             let query = [RayQuery::FirstHit, RayQuery::AnyHit][index / 2 % 2];
-            FreeRay::new(&Ray { t_max, ..ray }, query)
+            free_ray(&Ray { t_max, ..ray }, query)
         })
         .collect();
 
@@ -90,7 +94,7 @@ fn rays_that_graze(gpu: &Gpu) -> Result<(), Failed> {
         (0..16u8).map(move |step| {
             let share = 10.0f32.powf(-1.0 - 0.5 * f32::from(step / 4));
             let ray = moved(low * if step % 2 == 0 { 1.0 + share } else { 1.0 - share });
-            FreeRay::new(&ray, [RayQuery::FirstHit, RayQuery::AnyHit][usize::from(step / 2 % 2)])
+            free_ray(&ray, [RayQuery::FirstHit, RayQuery::AnyHit][usize::from(step / 2 % 2)])
         })
     };
     let rays: Vec<_> = (0..400.min(view.pixels() / 16)).flat_map(grazing).collect();
@@ -127,7 +131,7 @@ fn exits_at_faces_of_boxes(gpu: &Gpu) -> Result<(), Failed> {
             };
             let origin = reach * ((share.x - 0.5) * axis + start_aside);
             let direction = (reach * (axis + aside) - origin).normalize();
-            FreeRay::new(&Ray::new(origin, direction), RayQuery::Exit)
+            free_ray(&Ray::new(origin, direction), RayQuery::Exit)
         };
         let rays: Vec<_> = (0..view.pixels().min(3000)).map(from_beneath).collect();
         let findings = judge(&scene, &trace(gpu, &scene, &view, &rays)?);

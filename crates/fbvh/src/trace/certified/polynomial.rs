@@ -80,7 +80,7 @@ fn search_of_degree<const N: usize>(
         let Some(bounds) = Enclosure::<N>::new(query, &blocks.parabolas, start, end) else {
             return Answer::Undecided;
         };
-        if count == 0 && interval.0 <= 0.0 && bounds.upper[0] >= 0.0 {
+        if count == 0 && ray.starts && bounds.upper[0] >= 0.0 {
             let is_beyond = bounds.ends[0] > 0.0;
             return if is_beyond { Answer::StartsBeyond } else { Answer::Undecided };
         }

@@ -140,15 +140,20 @@ impl Chords {
 
 impl RangeSearch<'_> {
     /// Where the field first crosses T on the ray's interval in the leaf, in the query's direction.
-    pub(super) fn first_root(&self, interval: (f64, f64), counter: &mut impl Counter) -> Found {
+    /// `starts` is whether the ray starts with the interval.
+    pub(super) fn first_root(
+        &self,
+        interval: (f64, f64),
+        starts: bool,
+        counter: &mut impl Counter,
+    ) -> Found {
         let bounds = self.bounds(0.0, 0.0, counter);
         if bounds.end_least >= 0.0 {
             // Before a leaf that is not the first there was no crossing.
-            let starts = interval.0 <= 0.0;
             return if starts { Found::StartsBeyond } else { Found::Root(interval.0) };
         }
-        if interval.0 <= 0.0 && bounds.most >= 0.0 {
-            return Found::Undecided(0.0);
+        if starts && bounds.most >= 0.0 {
+            return Found::Undecided(interval.0);
         }
         match self.search(interval.1 - interval.0, counter) {
             Found::Root(t) => Found::Root(interval.0 + t),

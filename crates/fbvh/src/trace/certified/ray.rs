@@ -10,6 +10,7 @@ use super::ranges::{Chords, Found, RangeSearch, UNIT};
 use crate::Field;
 use crate::trace::counter::Counter;
 use crate::trace::field_tree::FieldTree;
+use crate::trace::slabs::Slabs;
 
 /// What searches of leaves share, for its memory.
 pub(in crate::trace) struct Scratch {
@@ -29,6 +30,8 @@ pub(super) struct RayState<'a> {
     ray: &'a Ray,
     origin: DVec3,
     inverse: DVec3,
+    t_min: f64,
+    t_max: f64,
     /// Whether the field comes so close to T at the ray's end that it may have crossed it.
     pub(super) uncertain: bool,
     /// For an exit: where it is if no leaf begins there.
@@ -49,14 +52,21 @@ struct ExitFace {
 
 impl<'a> RayState<'a> {
     pub(super) fn new(ray: &'a Ray) -> Self {
-        let inverse = ray.direction.as_dvec3().recip();
-        Self { ray, origin: ray.origin.as_dvec3(), inverse, uncertain: false, exit_face: None }
+        Self {
+            ray,
+            origin: ray.origin.as_dvec3(),
+            inverse: ray.direction.as_dvec3().recip(),
+            t_min: ray.t_min.into(),
+            t_max: ray.t_max.into(),
+            uncertain: false,
+            exit_face: None,
+        }
     }
 
     /// The ray's interval in a box, widened by rounding; `None` where it misses it. A ray in the plane
     /// of a face is in the box, as for [`Slabs`](crate::trace::slabs::Slabs).
     pub(super) fn interval(&self, bounds: &Aabb) -> Option<(f64, f64)> {
-        let (mut start, mut end) = (0.0, f64::from(self.ray.t_max));
+        let (mut start, mut end) = (self.t_min, self.t_max);
         let to_min = (bounds.min.as_dvec3() - self.origin) * self.inverse;
         let to_max = (bounds.max.as_dvec3() - self.origin) * self.inverse;
         for axis in 0..3 {
@@ -71,6 +81,11 @@ impl<'a> RayState<'a> {
             end = if far < end { far } else { end };
         }
         (start <= end).then_some((start, end))
+    }
+
+    /// Whether an interval of the ray begins where the ray does.
+    fn starts_at(&self, t: f64) -> bool {
+        t <= self.t_min
     }
 
     /// The answer for a ray that met no crossing, nor an exit at a face.
@@ -97,16 +112,25 @@ impl<F: Field> FieldTree<'_, F> {
     }
 
     /// [`FieldTree::first_crossing`] for an exit. Outside all leaves the field is T or below: a ray that
-    /// starts there has its exit at t = 0.
+    /// starts there is at its exit.
     pub(in crate::trace) fn first_exit(
         &self,
         query: &Query,
         ray: &Ray,
         scratch: &mut Scratch,
     ) -> SurfaceHit {
-        if self.tree.leaf_around(ray.origin, |_| true).is_none() {
-            let normal = ray.direction;
-            let hit = Hit { verdict: Verdict::Inside, fallback: false, t: 0.0, normal };
+        if ray.is_empty() {
+            return SurfaceHit::MISS;
+        }
+        // In a leaf that is searched from the ray's start on.
+        let (slabs, state) = (Slabs::new(ray), RayState::new(ray));
+        let holds_start = |bounds: &Aabb| {
+            slabs.crossing(bounds, ray.t_min).is_some()
+                && state.interval(bounds).is_some_and(|(start, _)| state.starts_at(start))
+        };
+        if self.tree.leaf_around(holds_start, |_| true).is_none() {
+            let (t, normal) = (ray.t_min, ray.direction);
+            let hit = Hit { verdict: Verdict::Inside, fallback: false, t, normal };
             return SurfaceHit { hit, ..SurfaceHit::MISS };
         }
         self.first_crossing(query, ray, scratch, &mut ())
@@ -155,7 +179,7 @@ impl<F: Field> FieldTree<'_, F> {
                 return None;
             }
             let t = interval.0 as f32;
-            let verdict = if t > 0.0 { Verdict::Hit } else { Verdict::Inside };
+            let verdict = if t > ray.t_min { Verdict::Hit } else { Verdict::Inside };
             return Some(self.hit_at(verdict, leaf, ray, t));
         }
         let Scratch { arch, blocks, .. } = scratch;
@@ -171,7 +195,9 @@ impl<F: Field> FieldTree<'_, F> {
     pub(super) fn hit_of(&self, answer: Answer, leaf: usize, ray: &Ray) -> Option<SurfaceHit> {
         let (t, normal) = match answer {
             Answer::Nothing | Answer::Undecided => return None,
-            Answer::StartsBeyond => return Some(self.hit_at(Verdict::Inside, leaf, ray, 0.0)),
+            Answer::StartsBeyond => {
+                return Some(self.hit_at(Verdict::Inside, leaf, ray, ray.t_min));
+            }
             Answer::Root(t, gradient) => (t as f32, outward(gradient, ray)),
             Answer::Somewhere => (f32::INFINITY, Vec3::ZERO),
         };
@@ -191,16 +217,18 @@ impl<F: Field> FieldTree<'_, F> {
         let ray = state.ray;
         let chords = &mut scratch.chords;
         chords.gather(self.field, self.tree.list(leaf), ray, interval);
-        let (verdict, t) = match (RangeSearch { chords, query }).first_root(interval, counter) {
+        let starts = state.starts_at(interval.0);
+        let search = RangeSearch { chords, query };
+        let (verdict, t) = match search.first_root(interval, starts, counter) {
             Found::Nothing => return None,
             Found::UncertainEnd => {
-                state.uncertain = interval.1 >= f64::from(ray.t_max);
+                state.uncertain = interval.1 >= state.t_max;
                 if query.crossing == Crossing::Exit && !state.uncertain {
                     state.exit_face = Some(ExitFace { leaf, t: interval.1 });
                 }
                 return None;
             }
-            Found::StartsBeyond => (Verdict::Inside, 0.0),
+            Found::StartsBeyond => (Verdict::Inside, ray.t_min),
             Found::Root(t) => (Verdict::Hit, t as f32),
             Found::Undecided(t) => (Verdict::Undecided, t as f32),
         };

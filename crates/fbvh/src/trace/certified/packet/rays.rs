@@ -12,7 +12,8 @@ pub(super) struct Packet {
     pub(super) origin: [Lanes<f32>; 3],
     pub(super) direction: [Lanes<f32>; 3],
     inverse: [Lanes<f32>; 3],
-    limit: Lanes<f32>,
+    t_min: Lanes<f32>,
+    t_max: Lanes<f32>,
     /// Per axis: whether the rays go towards −∞.
     pub(super) is_negative: [bool; 3],
 }
@@ -39,7 +40,8 @@ impl Packet {
             origin: array_of(|axis| all.map(|ray| ray.origin[axis])),
             direction,
             inverse: array_of(|axis| direction[axis].map(f32::recip)),
-            limit: all.map(|ray| ray.t_max),
+            t_min: all.map(|ray| ray.t_min),
+            t_max: all.map(|ray| ray.t_max),
             is_negative: is_negative(&rays[0]),
         }
     }
@@ -61,7 +63,7 @@ impl Packet {
     /// [`Slabs::crossing`](crate::trace::slabs::Slabs::crossing).
     #[inline(always)]
     pub(super) fn crossing(&self, min: &[f32; 3], max: &[f32; 3]) -> u32 {
-        let (mut enter, mut leave) = (Lanes::splat(0.0), self.limit);
+        let (mut enter, mut leave) = (self.t_min, self.t_max);
         for axis in 0..3 {
             let (near, far) = if self.is_negative[axis] { (max, min) } else { (min, max) };
             let to = |face: f32| (Lanes::splat(face) - self.origin[axis]) * self.inverse[axis];
@@ -75,7 +77,7 @@ impl Packet {
     /// the operations of [`RayState::interval`](super::super::ray::RayState::interval).
     #[inline(always)]
     pub(super) fn interval(&self, exact: &ExactPacket, bounds: &Aabb) -> (Lanes<f64>, Lanes<f64>) {
-        let (mut start, mut end) = (Lanes::splat(0.0), self.limit.map(f64::from));
+        let (mut start, mut end) = (self.t_min.map(f64::from), self.t_max.map(f64::from));
         for axis in 0..3 {
             let (min, max) = (bounds.min[axis], bounds.max[axis]);
             let (near, far) = if self.is_negative[axis] { (max, min) } else { (min, max) };

@@ -40,6 +40,8 @@ pub(super) struct RelativeRay {
     pub(super) direction: DVec3,
     pub(super) base: f64,
     pub(super) half: f32,
+    /// Whether the ray starts with the interval.
+    pub(super) starts: bool,
 }
 
 impl Blocks {
@@ -92,7 +94,8 @@ impl Blocks {
         let base = start + f64::from(half);
         let direction = ray.direction.as_dvec3();
         let origin = (ray.origin.as_dvec3() - self.middle) + base * direction;
-        RelativeRay { origin, direction, base, half }
+        let starts = start <= f64::from(ray.t_min);
+        RelativeRay { origin, direction, base, half, starts }
     }
 
     /// Projects the balls on the ray.
