@@ -41,6 +41,9 @@
 //! ([`Tracer::first_exit`]); each for a slice of rays in parallel, too. Positions are in world space and
 //! scene units; t counts in the ray's direction, which is a unit vector.
 //!
+//! A [`ClippedTracer`] answers the same about the solid cut to a [`Clip`](metaball_core::Clip), with
+//! filled faces.
+//!
 //! Particles of another type need not be copied: implement [`Field`] for them. Balls that cannot be
 //! traced (radii of 0, NaN) are refused by index; everything else is legal, an empty scene too.
 //!
@@ -112,6 +115,9 @@ pub use field::Field;
 pub use node::{EMPTY, LEAF, Leaf, MAX_DEPTH, Node};
 pub use options::{Boxes, Classes, Cost, Fitting, Kind, Options, Structure};
 pub use stats::{Spread, Stats};
-pub use trace::{Counter, Reading, SecantSearch, TraceError, TraceScratch, Tracer, Work};
+pub use trace::{
+    ClippedScratch, ClippedTracer, Counter, Reading, SecantSearch, TraceError, TraceScratch,
+    Tracer, Work,
+};
 pub use tree::Tree;
 pub use validate::Flaw;

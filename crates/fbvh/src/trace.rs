@@ -3,6 +3,7 @@
 mod batch;
 mod certified;
 mod clearance;
+mod clipped;
 mod counter;
 mod error;
 mod field_tree;
@@ -15,6 +16,7 @@ mod traversal;
 use metaball_core::{Hit, HostTracer, Ray, RayQuery, SurfaceHit, Verdict};
 
 use self::certified::{Crossing, PacketScratch, Query, Scratch};
+pub use self::clipped::{ClippedScratch, ClippedTracer};
 pub use self::counter::{Counter, Work};
 pub use self::error::TraceError;
 use self::field_tree::FieldTree;

@@ -20,6 +20,7 @@ use metaball::{
 use metaball_core::{Color, Picture, Scene};
 
 use crate::camera::CameraArgs;
+use crate::clip::ClipArgs;
 use crate::light::LightArgs;
 use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
 use crate::picture::{color_of, picture_named};
@@ -47,6 +48,8 @@ pub(crate) struct DrawingArgs {
     #[command(flatten)]
     camera: CameraArgs,
     #[command(flatten)]
+    clip: ClipArgs,
+    #[command(flatten)]
     light: LightArgs,
     #[command(flatten)]
     shared: PictureArgs,
@@ -62,7 +65,7 @@ struct Request {
 impl DrawingArgs {
     /// With `auto` where it chooses; else with the method named, or the default.
     fn request(self, auto: Option<Choosing>) -> anyhow::Result<Request> {
-        let Self { scene, method, picture, cpu, color, camera, light, shared } = self;
+        let Self { scene, method, picture, cpu, color, camera, clip, light, shared } = self;
         let method = match auto {
             Some(choosing) => Method::Auto(choosing),
             None => {
@@ -81,6 +84,7 @@ impl DrawingArgs {
             size: shared.size,
             viewpoint: camera.viewpoint(),
             picture,
+            clip: clip.clip()?,
             light: light.options(),
             backend,
         };
@@ -144,6 +148,11 @@ impl RenderArgs {
             }
         }
         Ok(())
+    }
+
+    #[cfg(test)]
+    pub(crate) fn clip(&self) -> Result<metaball::Clip, metaball::ClipError> {
+        self.drawing.clip.clip()
     }
 
     #[cfg(test)]

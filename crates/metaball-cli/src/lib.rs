@@ -4,6 +4,7 @@
 //! [`run`] is the binary. [`run_with`] is a binary of your own in which your [`Method`] takes part.
 
 mod camera;
+mod clip;
 mod draw;
 mod light;
 mod list;

@@ -42,13 +42,17 @@ pub(crate) fn named_file(text: &str) -> Result<(String, PathBuf), String> {
         .ok_or_else(|| "needed NAME=FILE, such as mine=hits.exr".to_owned())
 }
 
+/// So many finite numbers with commas between.
+pub(crate) fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
+    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers: [f32; N] = numbers.ok()?.try_into().ok()?;
+    numbers.iter().all(|number| number.is_finite()).then_some(numbers)
+}
+
 /// Three numbers with commas between.
 pub(crate) fn vector(text: &str) -> Result<Vec3, String> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.as_deref() {
-        Ok(&[x, y, z]) if Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
-        _ => Err("needed three numbers such as 0.5,1,-0.3".to_owned()),
-    }
+    let vector = numbers(text).map(Vec3::from_array);
+    vector.ok_or_else(|| "needed three numbers such as 0.5,1,-0.3".to_owned())
 }
 
 #[cfg(test)]

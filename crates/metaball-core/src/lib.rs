@@ -39,6 +39,7 @@
 //! # Contents
 //! - [`Scene`] of [`Metaball`]s, a [`Kernel`] and a threshold; [`Aabb`], [`Color`].
 //! - [`Camera`] and [`View`], which make primary [`Ray`]s; [`Hit`], what is found along one.
+//! - [`Clip`], a region that a solid is cut to.
 //! - [`mod@reference`]: exact first hits on the CPU, for comparison.
 //! - [`HostMethod`]: what finds primary hits on the CPU, to be compared; [`HostTracer`]: what follows rays
 //!   from anywhere there, for light.
@@ -50,6 +51,7 @@
 mod aabb;
 mod ball;
 mod camera;
+mod clip;
 mod color;
 #[cfg(feature = "gpu")]
 pub mod gpu;
@@ -67,6 +69,7 @@ mod work;
 pub use aabb::Aabb;
 pub use ball::{Metaball, Support};
 pub use camera::{Camera, CameraError, View, ViewError};
+pub use clip::{Clip, ClipError, Section};
 pub use color::Color;
 pub use host_method::{HostError, HostMethod, HostRenderer};
 pub use host_tracer::{HostTracer, RayQuery, SurfaceHit};

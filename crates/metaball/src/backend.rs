@@ -22,10 +22,21 @@ pub enum Backend {
 pub(crate) struct Opened {
     /// The adapter; `None` when it is the CPU that computes.
     pub(crate) gpu: Option<Gpu>,
-    why: String,
+    pub(crate) why: String,
 }
 
 impl Backend {
+    /// The adapter that was asked for, in words, if one was.
+    pub(crate) fn adapter_asked(&self) -> Option<String> {
+        match self {
+            Self::Adapter(choice) => Some(format!("{choice:?} adapter asked for")),
+            Self::Fastest if is_named() => {
+                Some("the adapter that WGPU_ADAPTER_NAME names".to_owned())
+            }
+            Self::Fastest | Self::Cpu => None,
+        }
+    }
+
     /// Opens what computes. `needs_adapter` says what cannot be drawn without an adapter, if anything.
     pub(crate) fn open(&self, needs_adapter: Option<&str>) -> Result<Opened, Error> {
         let choice = match self {
@@ -34,7 +45,7 @@ impl Backend {
                 let gpu = Some(Gpu::new(choice)?);
                 return Ok(Opened { gpu, why: "asked for".to_owned() });
             }
-            Self::Fastest if std::env::var_os("WGPU_ADAPTER_NAME").is_some() => {
+            Self::Fastest if is_named() => {
                 let gpu = Some(Gpu::new(&AdapterChoice::Environment)?);
                 return Ok(Opened { gpu, why: "named by WGPU_ADAPTER_NAME".to_owned() });
             }
@@ -54,6 +65,11 @@ impl Backend {
             (Err(error), _) => Err(error.into()),
         }
     }
+}
+
+/// Whether the environment names an adapter.
+fn is_named() -> bool {
+    std::env::var_os("WGPU_ADAPTER_NAME").is_some()
 }
 
 impl Opened {
@@ -84,8 +100,7 @@ mod tests {
         assert!(cpu.gpu.is_none() && cpu.describe().starts_with("the CPU ("));
         let fastest = Backend::Fastest.open(None).expect("the CPU at least");
         let is_software = fastest.gpu.as_ref().is_some_and(|gpu| gpu.report().is_software());
-        let is_named = std::env::var_os("WGPU_ADAPTER_NAME").is_some();
-        assert!(is_named || !is_software, "{}", fastest.describe());
+        assert!(is_named() || !is_software, "{}", fastest.describe());
     }
 
     #[test]

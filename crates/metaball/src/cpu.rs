@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-use fbvh::{Tracer, Tree};
+use fbvh::{ClippedTracer, Tracer, Tree};
 use metaball_core::shade::{CpuPicture, Shader};
-use metaball_core::{Hit, Scene, ValueRange, View};
+use metaball_core::{Clip, Hit, Scene, ValueRange, View};
 use metaball_light::DepthCue;
 use metaball_light::cpu::PathTracer;
 
@@ -41,29 +41,33 @@ impl Built {
         Ok(Self { tree, time: start.elapsed() })
     }
 
-    /// What traces the scene that it was built for.
-    pub(crate) fn tracer<'a>(&'a self, scene: &'a Scene) -> Tracer<'a, Scene> {
-        Tracer::new(&self.tree, scene)
+    /// What traces the scene that it was built for, cut to a region.
+    pub(crate) fn tracer<'a>(
+        &'a self,
+        scene: &'a Scene,
+        clip: &Clip,
+    ) -> Result<ClippedTracer<'a, Scene>, Error> {
+        Ok(ClippedTracer::new(Tracer::new(&self.tree, scene), clip.clone())?)
     }
 }
 
 /// Draws bands of a view, in any order: each is the same, bit for bit, as in the whole picture.
 pub(crate) struct Painter<'a> {
     view: &'a View,
-    tracer: &'a Tracer<'a, Scene>,
+    tracer: &'a ClippedTracer<'a, Scene>,
     look: Look<'a>,
 }
 
 /// How a picture is shaded.
 enum Look<'a> {
     Shared(Shader<'a>),
-    Lit(&'a Lighting, Box<PathTracer<'a, Tracer<'a, Scene>>>),
+    Lit(&'a Lighting, Box<PathTracer<'a, ClippedTracer<'a, Scene>>>),
 }
 
 impl<'a> Painter<'a> {
     /// Of a view in this light, if there is any, else of what the options say.
     pub(crate) fn new(
-        tracer: &'a Tracer<'a, Scene>,
+        tracer: &'a ClippedTracer<'a, Scene>,
         scene: &'a Scene,
         view: &'a View,
         options: &DrawOptions,
@@ -206,7 +210,7 @@ mod tests {
     /// A view drawn in bands of at least so many pixels.
     fn drawn(scene: &Scene, view: &View, options: &DrawOptions, pixels: u32) -> Band {
         let built = Built::new(&options.method, scene).expect("built");
-        let tracer = built.tracer(scene);
+        let tracer = built.tracer(scene, &options.clip).expect("a tracer");
         let lighting = options.lighting(view, scene).expect("light");
         let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref());
         let painter = painter.expect("a painter");

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use metaball_core::gpu::{self, Gpu, IsoRenderer, RenderError, Shading, Targets};
 use metaball_core::shade::CpuPicture;
-use metaball_core::{Camera, Hit, Image, Picture, Scene, ValueRange, View};
+use metaball_core::{Camera, Clip, Hit, Image, Picture, Scene, ValueRange, View};
 use metaball_light::Film;
 use picture_files::{write_hits, write_light, write_png};
 
@@ -29,6 +29,8 @@ pub struct DrawOptions {
     pub viewpoint: Viewpoint,
     /// What the picture shows.
     pub picture: Picture,
+    /// The region that the solid is cut to, with filled faces. Needs the certified tree, and the CPU.
+    pub clip: Clip,
     /// Ray traced light, instead of the shared Phong picture.
     pub light: LightOptions,
     /// What computes.
@@ -43,6 +45,7 @@ impl Default for DrawOptions {
             size: (640, 480),
             viewpoint: Viewpoint::default(),
             picture: Picture::Phong,
+            clip: Clip::default(),
             light: LightOptions::default(),
             backend: Backend::default(),
         }
@@ -245,7 +248,7 @@ pub(crate) fn on_cpu(
     view: &View,
 ) -> Result<Drawing, Error> {
     let built = Built::new(&options.method, scene)?;
-    let tracer = built.tracer(scene);
+    let tracer = built.tracer(scene, &options.clip)?;
     let painter = Painter::new(&tracer, scene, view, options, lighting)?;
     let planes = painter.planes(true, true);
     let mut whole = Band::default();
@@ -287,6 +290,9 @@ impl DrawOptions {
 
     /// Opens what draws it.
     pub(crate) fn open(&self) -> Result<Opened, Error> {
+        if let Some(option) = self.cpu_alone() {
+            return self.open_cpu(option);
+        }
         if self.method.is_on_host() {
             return Backend::Cpu.open(None);
         }

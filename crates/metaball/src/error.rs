@@ -55,6 +55,9 @@ pub enum Error {
         /// What would.
         instead: &'static str,
     },
+    /// The method's tree does not have what was asked for.
+    #[error(transparent)]
+    Trace(#[from] fbvh::TraceError),
     /// A tree cannot be built for the scene.
     #[error("method {method}")]
     Build {

@@ -20,9 +20,9 @@
 //!
 //! - [`load`] reads a particle file; any [`Scene`] and [`Camera`] will do instead.
 //! - [`draw()`] draws one picture, as [`DrawOptions`] say: [size](DrawOptions::size), another
-//!   [`Viewpoint`], [what it shows](DrawOptions::picture), [`LightOptions`], [which method](Method) and
-//!   [what computes](Backend). All of them have defaults. The result is a [`Drawing`]: the image, and
-//!   distance, normal and verdict of every ray.
+//!   [`Viewpoint`], [what it shows](DrawOptions::picture), [what is cut away](Clip), [`LightOptions`],
+//!   [which method](Method) and [what computes](Backend). All of them have defaults. The result is a
+//!   [`Drawing`]: the image, and distance, normal and verdict of every ray.
 //! - [`draw_to_files`] draws it to files band by band, so that it may be of any size, and goes on with one
 //!   that was interrupted.
 //! - [`animate()`] draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
@@ -37,6 +37,7 @@ mod backend;
 mod band;
 mod certain;
 mod cpu;
+mod cpu_alone;
 mod draw;
 mod error;
 mod files;
@@ -55,7 +56,9 @@ pub use error::Error;
 pub use files::{Outputs, draw_to_files};
 pub use light::{FloorKind, LightOptions};
 pub use metaball_core::gpu::AdapterChoice;
-pub use metaball_core::{Camera, Hit, Image, Picture, Scene, Verdict, View, WorkKind};
+pub use metaball_core::{
+    Aabb, Camera, Clip, ClipError, Hit, Image, Picture, Scene, Verdict, View, WorkKind,
+};
 #[cfg(feature = "harness")]
 pub use method::Choosing;
 pub use method::Method;

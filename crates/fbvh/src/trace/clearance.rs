@@ -74,7 +74,7 @@ impl<F: Field> FieldTree<'_, F> {
 }
 
 /// Four times what rounding may do to the point of a ray at t.
-fn rounding_at(ray: &Ray, t: f32) -> f32 {
+pub(super) fn rounding_at(ray: &Ray, t: f32) -> f32 {
     let end = ray.origin + t * ray.direction;
     4.0 * UNIT * (ray.origin.length() + 2.0 * t + end.length())
 }

@@ -14,6 +14,13 @@ pub enum TraceError {
         /// The tree's kind.
         found: Kind,
     },
+    /// A cut of a published tree: where a ray starts in the solid, which is where it meets the face of a
+    /// cut, the paper promises nothing.
+    #[error("clipping: needed a certified tree, found {found:?}")]
+    ClipOfPublished {
+        /// The tree's kind.
+        found: Kind,
+    },
     /// A secant search in a certified tree: its leaves are searched by bounds, to the last float, and
     /// have neither a tolerance nor a reading.
     #[error("a secant search: needed a published tree, found {found:?}")]

@@ -57,9 +57,10 @@ struct Ready {
 impl Job<'_> {
     /// What a frame's file describes: all that its pixels depend on but the user's files.
     pub(super) fn description(&self, number: u32) -> String {
-        let DrawOptions { method, picture, light, .. } = self.options;
+        let DrawOptions { method, picture, clip, light, .. } = self.options;
         format!(
-            "metaball {}: frame {number} of {}, {} × {}, {picture:?} by {} on {}, {:?}, {light:?}",
+            "metaball {}: frame {number} of {}, {} × {}, {picture:?} by {} on {}, {:?}, {clip:?}, \
+             {light:?}",
             env!("CARGO_PKG_VERSION"),
             self.scene.description(),
             self.view.width(),
@@ -219,7 +220,8 @@ mod tests {
 
     use bench_scenes::{Moving, Overrides};
     use fbvh::Options;
-    use metaball_core::Picture;
+    use glam::Vec3;
+    use metaball_core::{Clip, Picture};
 
     use super::*;
     use crate::{LightOptions, Method};
@@ -233,6 +235,7 @@ mod tests {
         let same = Overrides::default();
         let threshold = Overrides { threshold: Some(0.3), ..same };
         let modified = Method::Tree(Options::modified_bvh());
+        let clip = Clip::default().and_plane(Vec3::X, 0.5).expect("a plane");
         let drawings = [
             ("tornado:100", same, plain.clone()),
             ("tornado:101", same, plain.clone()),
@@ -240,6 +243,7 @@ mod tests {
             ("tornado:100", same, DrawOptions { method: modified, ..plain.clone() }),
             ("tornado:100", same, DrawOptions { size: (33, 24), ..plain.clone() }),
             ("tornado:100", same, DrawOptions { picture: Picture::Depth, ..plain.clone() }),
+            ("tornado:100", same, DrawOptions { clip, ..plain.clone() }),
             ("tornado:100", same, lit(LightOptions { shadows: true, ..none() })),
             ("tornado:100", same, lit(LightOptions { samples: Some(4), ..none() })),
             ("tornado:100", same, lit(LightOptions { samples: Some(4), seed: Some(1), ..none() })),

@@ -3,10 +3,9 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use fbvh::Tracer;
 use glam::Vec3;
 use metaball_core::gpu::{Gpu, IsoRenderer};
-use metaball_core::{Color, Hit, Image, Scene, ValueRange, View};
+use metaball_core::{Color, Hit, HostTracer, Image, Scene, ValueRange, View};
 use metaball_light::gpu::PathTracer;
 use metaball_light::{DepthCue, Effects, Film, cpu, develop};
 
@@ -61,12 +60,12 @@ impl Lighting {
     }
 
     /// The same light on the CPU; `None` where the tree does not follow the rays that it needs.
-    pub(crate) fn on_cpu<'a>(
+    pub(crate) fn on_cpu<'a, T: HostTracer>(
         &self,
-        tracer: &'a Tracer<'a, Scene>,
+        tracer: &'a T,
         scene: &'a Scene,
         view: &View,
-    ) -> Option<cpu::PathTracer<'a, Tracer<'a, Scene>>> {
+    ) -> Option<cpu::PathTracer<'a, T>> {
         let Self { effects, samples, seed, .. } = self;
         cpu::PathTracer::new(tracer, scene, view, effects, *samples, *seed).ok()
     }

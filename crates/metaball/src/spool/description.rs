@@ -16,7 +16,7 @@ pub(crate) struct Description(Vec<(String, String)>);
 impl Description {
     /// Of a view's picture.
     pub(crate) fn new(scene: &Scene, view: &View, options: &DrawOptions, planes: Planes) -> Self {
-        let DrawOptions { method, picture, light, .. } = options;
+        let DrawOptions { method, picture, clip, light, .. } = options;
         let facts = [
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("size", format!("{} × {}", view.width(), view.height())),
@@ -24,6 +24,7 @@ impl Description {
             ("camera", format!("{:?}", view.camera())),
             ("method", format!("{} {:?}", method.name(), method.tree())),
             ("picture", format!("{picture:?}")),
+            ("clip", format!("{clip:?}")),
             ("light", format!("{light:?}")),
             ("planes", format!("{planes:?}")),
         ];
