@@ -39,7 +39,7 @@ pub(crate) struct LightArgs {
     #[arg(long, value_name = "SHARE", requires = "reflections", allow_negative_numbers = true)]
     reflectivity: Option<f32>,
     /// A clear fluid of this index of refraction, such as 1.33. Needs the certified tree.
-    #[arg(long, value_name = "INDEX", allow_negative_numbers = true)]
+    #[arg(long, value_name = "INDEX", group = "layers", allow_negative_numbers = true)]
     #[arg(conflicts_with_all = ["shadows", "ambient_occlusion", "cel"])]
     refraction: Option<f32>,
     /// What the fluid absorbs of red, green and blue per scene unit; a little red over the scene's
@@ -47,8 +47,16 @@ pub(crate) struct LightArgs {
     #[arg(long, value_name = "R,G,B", value_parser = vector, requires = "refraction")]
     #[arg(allow_hyphen_values = true)]
     absorption: Option<Vec3>,
-    /// Surfaces seen through each other in the fluid; 8 when left out.
-    #[arg(long, value_name = "N", requires = "refraction")]
+    /// A see-through surface: its share in what is seen through it, 0 to 1. Each layer that a ray
+    /// meets, where it enters the solid and where it leaves it, is lit as an opaque surface is and
+    /// laid over what lies behind; what any number of them shadows has 1 − A of the light. Needs the
+    /// certified tree, and the CPU.
+    #[arg(long, value_name = "A", group = "layers", allow_negative_numbers = true)]
+    #[arg(conflicts_with = "reflections")]
+    opacity: Option<f32>,
+    /// Surfaces seen through others, in the fluid or the see-through solid; behind the last there are
+    /// the surroundings. 8 when left out.
+    #[arg(long, value_name = "N", requires = "layers")]
     bounces: Option<u32>,
     /// What the scene stands on, below its lowest ball.
     #[arg(long, value_name = "KIND", value_enum)]
@@ -94,6 +102,7 @@ impl LightArgs {
             reflectivity: self.reflectivity,
             refraction: self.refraction,
             absorption: self.absorption,
+            opacity: self.opacity,
             bounces: self.bounces,
             floor: self.floor.map(|floor| match floor {
                 FloorArg::Plain => FloorKind::Plain,
@@ -148,6 +157,15 @@ mod tests {
             ..LightOptions::default()
         };
         assert_eq!(render.light(), wanted);
+        let line = "metaball render splash --opacity 0.4 --shadows --bounces 5";
+        let Ok(Command::Render(render)) = parse(line) else { panic!("a legal command line") };
+        let wanted = LightOptions {
+            shadows: true,
+            opacity: Some(0.4),
+            bounces: Some(5),
+            ..LightOptions::default()
+        };
+        assert_eq!(render.light(), wanted);
         let Ok(Command::Render(plain)) = parse("metaball render molecule") else {
             panic!("a legal command line")
         };
@@ -159,6 +177,8 @@ mod tests {
         for line in [
             "--refraction 1.33 --shadows",
             "--refraction 1.33 --reflections 1",
+            "--opacity 0.5 --refraction 1.33",
+            "--opacity 0.5 --reflections 1",
             "--lamp-size 3",
             "--reflectivity 0.5",
             "--absorption 1,0,0",

@@ -1,8 +1,8 @@
 //! The path tracer on the CPU: no graphics API.
 //!
-//! Each effect is a file of its own, the twin of the one of that name in `shaders/wgsl/light`: line by line
-//! the same formulas, in f32 without fused operations and with the functions of libm, so that a picture
-//! is the same on every machine.
+//! Each effect is a file of its own, but for `opacity` the twin of the one of that name in
+//! `shaders/wgsl/light`: line by line the same formulas, in f32 without fused operations and with the
+//! functions of libm, so that a picture is the same on every machine.
 
 mod environment;
 mod floor;
@@ -12,6 +12,7 @@ mod lamps;
 mod lighting;
 mod mirror;
 mod occlusion;
+mod opacity;
 mod path_tracer;
 mod phong;
 mod power;

@@ -16,8 +16,9 @@ pub struct Effects {
     pub shadows: bool,
     /// Occlusion of the surroundings' light. Without it a surface is lit by their mean.
     pub occlusion: Option<Occlusion>,
-    /// Surfaces that a path may meet after the first: levels of reflection or refraction. The last surface
-    /// reflects and refracts the floor and the environment alone: at 0 that is environment mapping.
+    /// Surfaces that a path may meet after the first: levels of reflection or refraction, or surfaces seen
+    /// through others. The last one reflects, refracts or shows the floor and the environment alone: at 0
+    /// that is environment mapping.
     pub bounces: u32,
     /// What the scene stands on, if anything.
     pub floor: Option<Floor>,
@@ -34,6 +35,13 @@ pub enum Surface {
     Opaque {
         /// Share of light that is mirrored at normal incidence, 0 to 1; 0 mirrors nothing.
         reflectivity: f32,
+    },
+    /// Phong's model in the scene's colours, seen through: a path goes straight on through the surface,
+    /// where it enters the solid and where it leaves it, and each of these layers is lit from outside. What
+    /// any number of them shadows or occludes has 1 − opacity of the light. On the CPU alone.
+    SeeThrough {
+        /// Share of each layer in what is seen through it, 0 to 1; at 1 the surface is opaque.
+        opacity: f32,
     },
     /// A clear fluid.
     Fluid {
@@ -111,6 +119,14 @@ impl Effects {
         if self.is_fluid() { 0 } else { rays }
     }
 
+    /// The share of light that the metaballs' surface lets pass straight on.
+    pub(crate) fn transparency(&self) -> f32 {
+        match self.surface {
+            Surface::SeeThrough { opacity } => 1.0 - opacity.clamp(0.0, 1.0),
+            Surface::Opaque { .. } | Surface::Fluid { .. } => 0.0,
+        }
+    }
+
     fn is_fluid(&self) -> bool {
         matches!(self.surface, Surface::Fluid { .. })
     }
@@ -121,7 +137,8 @@ impl Effects {
             return vec![RayQuery::FirstHit, RayQuery::Exit];
         }
         let shadow = self.need_shadow_rays().then_some(RayQuery::AnyHit);
-        [RayQuery::FirstHit].into_iter().chain(shadow).collect()
+        let onward = (self.transparency() > 0.0).then_some(RayQuery::Exit);
+        [RayQuery::FirstHit].into_iter().chain(shadow).chain(onward).collect()
     }
 
     /// Phong's model under the generated sky, lit by [`Lamp::studio`] without shadows.

@@ -38,7 +38,8 @@
 //! *Surfaces* ([`Surface`]). An opaque surface has Phong's model, lit by lamps and by the environment, and may
 //! mirror by Schlick's approximation. A clear fluid reflects and refracts by Fresnel's equations and absorbs
 //! light along the way (Beer and Lambert). A path does not branch: it takes one of the two at random, with
-//! that one's share of the light as probability.
+//! that one's share of the light as probability. A see-through surface is lit as an opaque one, by its share,
+//! and the path goes straight on with the rest, layer by layer.
 //!
 //! *Sampling.* Points in the pixel, on a lamp and in the sky are those of Roberts' low-discrepancy sequence R2,
 //! shifted by a hash of pixel, purpose and seed. The same seed gives the same picture.
@@ -60,6 +61,8 @@
 //! whose paths have ended cost nothing. Effects that [end at the first
 //! surface](Effects::end_at_first_surface) take the hits of a method's own frame, so every method can be lit
 //! that far. All others need a method whose tracer answers their queries, and are an error without.
+//!
+//! See-through surfaces are on the CPU alone.
 //!
 //! Each effect is a file of its own below `cpu`, and its twin in `shaders/wgsl/light`: `phong`, `lamps`,
 //! `occlusion`, `mirror`, `fluid`, `floor` and `environment`. Tests hold the two together: the answers to the

@@ -87,6 +87,7 @@ impl Settings {
     pub(crate) fn new(effects: &Effects, samples: u32, seed: u32) -> Self {
         let (reflectivity, refraction, absorption) = match effects.surface {
             Surface::Opaque { reflectivity } => (reflectivity, 0.0, Vec3::ZERO),
+            Surface::SeeThrough { .. } => (0.0, 0.0, Vec3::ZERO),
             Surface::Fluid { refraction, absorption } => (0.0, refraction, absorption),
         };
         let (columns, rows) = match &effects.environment {

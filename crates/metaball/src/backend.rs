@@ -29,7 +29,7 @@ impl Backend {
     /// The adapter that was asked for, in words, if one was.
     pub(crate) fn adapter_asked(&self) -> Option<String> {
         match self {
-            Self::Adapter(choice) => Some(format!("{choice:?} adapter asked for")),
+            Self::Adapter(choice) => Some(format!("adapter {choice:?}")),
             Self::Fastest if is_named() => {
                 Some("the adapter that WGPU_ADAPTER_NAME names".to_owned())
             }

@@ -8,7 +8,8 @@ use crate::{DrawOptions, Error};
 impl DrawOptions {
     /// The option that only the certified tree on the CPU gives, if there is any.
     pub(crate) fn cpu_alone(&self) -> Option<&'static str> {
-        (!self.clip.is_all()).then_some("clip")
+        let clips = (!self.clip.is_all()).then_some("clip");
+        clips.or(self.light.is_see_through().then_some("opacity"))
     }
 
     /// Opens the CPU for such an option, if nothing else was asked for.
@@ -21,7 +22,7 @@ impl DrawOptions {
             return refused("method fbvh-certified, which alone has it", found);
         }
         match self.backend.adapter_asked() {
-            Some(adapter) => refused("the CPU, which alone has it: ask for that", adapter),
+            Some(adapter) => refused("the CPU, which alone has it", adapter),
             None => Ok(Opened { gpu: None, why: format!("it alone has {option}") }),
         }
     }
@@ -36,13 +37,14 @@ mod tests {
     use metaball_core::{Aabb, Clip, Color, Hit, Image, Picture, Ray, Scene, Verdict, View};
 
     use super::*;
-    use crate::{Backend, Drawing, Method, draw};
+    use crate::{Backend, Drawing, LightOptions, Method, draw};
 
     const SIZE: (u32, u32) = (48, 36);
 
     fn drawn(clip: Clip, picture: Picture) -> (Scene, Vec<Ray>, Drawing) {
         let bench = load("colors-100", &Overrides::default()).expect("known");
-        let options = DrawOptions { size: SIZE, clip, picture, ..DrawOptions::default() };
+        let base = DrawOptions { backend: Backend::Cpu, ..DrawOptions::default() };
+        let options = DrawOptions { size: SIZE, clip, picture, ..base };
         let drawing = draw(&bench.scene, &bench.camera, &options).expect("drawn");
         let rays = View::new(bench.camera, SIZE.0, SIZE.1).expect("a size").rays();
         (bench.scene, rays, drawing)
@@ -139,9 +141,23 @@ mod tests {
         let software = Backend::Adapter(AdapterChoice::Software);
         let error = refusal(DrawOptions { backend: software, ..base.clone() });
         assert!(error.starts_with("clip: needed the CPU"), "{error}");
+        let whole = DrawOptions { clip: Clip::default(), ..base.clone() };
+        let light = LightOptions { opacity: Some(0.5), ..LightOptions::default() };
+        let backend = Backend::Adapter(AdapterChoice::Software);
+        let error = refusal(DrawOptions { light: light.clone(), backend, ..whole.clone() });
+        assert!(error.starts_with("opacity: needed the CPU"), "{error}");
+        let opened = DrawOptions { light, ..whole }.open();
+        match Backend::Fastest.adapter_asked() {
+            Some(_) => assert!(opened.is_err()),
+            None => {
+                let by = opened.expect("the CPU").describe();
+                assert!(by.starts_with("the CPU") && by.ends_with("it alone has opacity"), "{by}");
+            }
+        }
         let nothing = Aabb { min: Vec3::splat(50.0), max: Vec3::splat(51.0) };
         let clip = Clip::default().and_box(&nothing).expect("a box");
-        let empty = draw(&bench.scene, &bench.camera, &DrawOptions { clip, ..base });
+        let options = DrawOptions { clip, backend: Backend::Cpu, ..base };
+        let empty = draw(&bench.scene, &bench.camera, &options);
         assert_eq!(empty.expect("drawn").hit_count(), 0);
     }
 }

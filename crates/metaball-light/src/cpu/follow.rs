@@ -104,10 +104,10 @@ impl<T: HostTracer> PathTracer<'_, T> {
                 self.meet_surfaces(query, &sent, sample, scratch);
             }
             self.light_surfaces(sample, scratch);
-            for (index, ray) in &scratch.lit {
-                let path = &mut scratch.paths[*index as usize];
-                let next = self.lighting.mirror(path, ray.direction);
-                scratch.outside.extend(next.map(|next| (*index, next)));
+            let Scratch { paths, lit, outside, within, .. } = scratch;
+            for (index, ray) in lit {
+                let path = &mut paths[*index as usize];
+                go_on(*index, self.lighting.onward(path, ray.direction), outside, within);
             }
         }
         let undecided = scratch.paths.iter().map(|path| u64::from(path.undecided));
@@ -142,16 +142,12 @@ impl<T: HostTracer> PathTracer<'_, T> {
                 lit.push((*index, *ray));
                 continue;
             }
-            match self.lighting.pass_through(path, sample.at(*index), ray.direction) {
-                Some((next, RayQuery::Exit)) => within.push((*index, next)),
-                Some((next, _)) => outside.push((*index, next)),
-                None => (),
-            }
+            let next = self.lighting.pass_through(path, sample.at(*index), ray.direction);
+            go_on(*index, next, outside, within);
         }
     }
 
-    /// Sends the shadow and occlusion rays of all lit surfaces, and adds the light of those that hit
-    /// nothing.
+    /// Sends the shadow and occlusion rays of all lit surfaces, and adds the light that arrives.
     fn light_surfaces(&self, sample: Sample<'_>, scratch: &mut Scratch<T::Scratch>) {
         scratch.wave.clear();
         scratch.pending.clear();
@@ -182,14 +178,29 @@ impl<T: HostTracer> PathTracer<'_, T> {
         for ((at, light), (ray, found)) in pending.iter().zip(answered) {
             let (index, incoming) = &lit[*at as usize];
             let path = &mut paths[*index as usize];
-            if !found.hit.is_hit() {
+            let arriving = self.lighting.arriving(found.hit.is_hit());
+            if arriving > 0.0 {
                 let unoccluded = || self.lighting.unoccluded(path, incoming.direction, ray);
                 let light = light.unwrap_or_else(unoccluded);
-                path.radiance += light;
+                path.radiance += arriving * light;
             }
             path.undecided += u32::from(found.hit.verdict == Verdict::Undecided);
         }
         wave.clear();
         pending.clear();
+    }
+}
+
+/// Notes a path's next ray, if there is one, among those that run outside of the solid, or inside.
+fn go_on(
+    path: u32,
+    next: Option<(Ray, RayQuery)>,
+    outside: &mut Vec<(u32, Ray)>,
+    within: &mut Vec<(u32, Ray)>,
+) {
+    match next {
+        Some((ray, RayQuery::Exit)) => within.push((path, ray)),
+        Some((ray, _)) => outside.push((path, ray)),
+        None => (),
     }
 }

@@ -10,6 +10,8 @@ pub(super) struct Lighting {
     pub(super) settings: Settings,
     pub(super) lamps: Vec<Lamp>,
     pub(super) environment: Environment,
+    /// The share of light that the metaballs' surface lets pass straight on.
+    pub(super) transparency: f32,
 }
 
 impl Lighting {
@@ -18,6 +20,7 @@ impl Lighting {
             settings: Settings::new(effects, samples, seed),
             lamps: effects.lamps.iter().map(Lamp::new).collect(),
             environment: effects.environment.clone(),
+            transparency: effects.transparency(),
         }
     }
 }

@@ -22,7 +22,7 @@ impl Lighting {
 
     /// The share that the surface itself scatters to the eye.
     pub(super) fn own_share(&self, path: &Path, direction: Vec3) -> Vec3 {
-        path.throughput * (1.0 - self.mirror_share(path, direction))
+        path.throughput * (1.0 - self.mirror_share(path, direction)) * self.coverage(path)
     }
 
     /// Continues the path along the reflection, or ends it.

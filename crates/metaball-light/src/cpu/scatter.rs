@@ -1,8 +1,8 @@
-//! What a surface does with light: it is lit along shadow and occlusion rays and mirrors, or it is a clear
-//! fluid.
+//! What a surface does with light: it is lit along shadow and occlusion rays and mirrors or shows what lies
+//! behind, or it is a clear fluid.
 
 use glam::Vec3;
-use metaball_core::Ray;
+use metaball_core::{Ray, RayQuery};
 
 use super::lighting::Lighting;
 use crate::path::Path;
@@ -39,5 +39,13 @@ impl Lighting {
         let occlusion = move |ray| self.occlusion_ray(path, at, ray).map(Sent::Occlusion);
         let occlusion = (0..self.settings.occlusion_rays).filter_map(occlusion);
         (0..to_lamps).filter_map(shadow).chain(occlusion)
+    }
+
+    /// The next ray of a path from a lit surface, off it or through it; none where the path ends.
+    pub(super) fn onward(&self, path: &mut Path, direction: Vec3) -> Option<(Ray, RayQuery)> {
+        if self.transparency > 0.0 {
+            return self.pass_straight(path, direction);
+        }
+        self.mirror(path, direction).map(|next| (next, RayQuery::FirstHit))
     }
 }

@@ -75,11 +75,19 @@ impl<'a> PathTracer<'a> {
     /// [end at the first surface](Effects::end_at_first_surface).
     ///
     /// # Errors
-    /// When the method cannot trace the rays that the effects need, and whatever stops it.
+    /// When the surface is see-through, which the CPU alone draws; when the method cannot trace the rays that
+    /// the effects need; and whatever stops it.
     pub fn add_sample(
         &mut self,
         renderer: &mut dyn IsoRenderer,
     ) -> Result<FrameReport, RenderError> {
+        if self.effects.transparency() > 0.0 {
+            let method = renderer.name();
+            let reason = "needed an opaque surface or a fluid on an adapter, found a see-through \
+                          surface; the path tracer on the CPU draws it"
+                .to_owned();
+            return Err(RenderError::Unsupported { method, reason });
+        }
         let gpu = self.gpu;
         let (mut settings, mut view) = (self.settings, self.view.clone());
         let follows = is_followed_by(&self.effects, renderer);

@@ -11,8 +11,9 @@ use picture_files::read_light;
 use super::Lighting;
 use crate::{Error, Method};
 
-/// Surfaces that are seen through each other in a clear fluid unless asked otherwise.
-const FLUID_BOUNCES: u32 = 8;
+/// Surfaces that are seen through each other, in a clear fluid or a see-through solid, unless asked
+/// otherwise.
+const LAYERS: u32 = 8;
 
 /// How far a floor goes, in the scene's radius.
 const FLOOR_REACH: f32 = 3.0;
@@ -27,7 +28,7 @@ const TILES_PER_RADIUS: f32 = 5.0;
 /// ray traced light instead of the shared Phong picture.
 ///
 /// Shadows, occlusion, mirrored surfaces and refraction need a method that follows any ray, which the
-/// trees are; refraction needs the certified one.
+/// trees are; refraction and opacity need the certified one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LightOptions {
     /// Lamps cast shadows.
@@ -50,7 +51,13 @@ pub struct LightOptions {
     /// What the fluid absorbs of red, green and blue per scene unit; a little red over the scene's
     /// radius when left out.
     pub absorption: Option<Vec3>,
-    /// Surfaces seen through each other in the fluid; 8 when left out.
+    /// A see-through surface: the share of each layer in what is seen through it, 0 to 1. Layers are
+    /// where a ray enters the solid and where it leaves it, each lit as an opaque surface is; what any
+    /// number of them shadows has 1 − opacity of the light. Needs the certified tree and the CPU, and
+    /// goes with neither reflections nor refraction.
+    pub opacity: Option<f32>,
+    /// Surfaces seen through others, in the fluid or the see-through solid; behind the last there are the
+    /// surroundings. 8 when left out.
     pub bounces: Option<u32>,
     /// What the scene stands on, below its lowest ball; y is up.
     pub floor: Option<FloorKind>,
@@ -92,10 +99,20 @@ impl LightOptions {
     pub(crate) fn is_given_by_tree(&self, tree: Option<Kind>) -> bool {
         let has_secondary_rays = self.shadows
             || self.ambient_occlusion.is_some()
-            || self.refraction.is_some()
+            || self.goes_inside()
             || self.reflections.is_some_and(|levels| levels > 0);
         !has_secondary_rays
-            || tree.is_some_and(|kind| self.refraction.is_none() || kind == Kind::Certified)
+            || tree.is_some_and(|kind| !self.goes_inside() || kind == Kind::Certified)
+    }
+
+    /// Whether the surface is seen through.
+    pub(crate) fn is_see_through(&self) -> bool {
+        self.opacity.is_some_and(|opacity| opacity < 1.0)
+    }
+
+    /// Whether paths go on inside the solid.
+    fn goes_inside(&self) -> bool {
+        self.refraction.is_some() || self.is_see_through()
     }
 
     /// The light for a camera's pictures of a scene, or of one that moves and begins like this.
@@ -132,9 +149,10 @@ impl LightOptions {
             lamps,
             shadows: self.shadows,
             occlusion: self.ambient_occlusion.map(|rays| Occlusion { rays, reach }),
-            bounces: match self.refraction {
-                Some(_) => self.bounces.unwrap_or(FLUID_BOUNCES),
-                None => self.reflections.unwrap_or_default(),
+            bounces: if self.goes_inside() {
+                self.bounces.unwrap_or(LAYERS)
+            } else {
+                self.reflections.unwrap_or_default()
             },
             floor: self.floor.map(|kind| floor(kind, scene)),
             environment: match &self.environment {
@@ -150,6 +168,13 @@ impl LightOptions {
     }
 
     fn surface(&self, radius: f32) -> Result<Surface, Error> {
+        if let Some(opacity) = self.opacity {
+            require((0.0..=1.0).contains(&opacity), "opacity", "a share from 0 to 1", opacity)?;
+            let is_alone = self.refraction.is_none() && self.reflections.is_none();
+            let alone = "neither refraction nor reflections beside it";
+            require(is_alone, "opacity", alone, "one of them")?;
+            return Ok(Surface::SeeThrough { opacity });
+        }
         if let Some(refraction) = self.refraction {
             let is_index = refraction > 0.0 && refraction.is_finite();
             require(is_index, "refraction", "a finite index above 0", refraction)?;
@@ -246,9 +271,13 @@ mod tests {
         for light in secondary {
             assert!(!light.is_given_by_tree(None) && light.is_given_by_tree(Some(Kind::Fitted)));
         }
-        let fluid = LightOptions { refraction: Some(1.33), ..none };
-        assert!(fluid.is_given_by(&Method::default()));
-        assert!(!fluid.is_given_by(&Method::Tree(Options::fitted())));
+        for light in [
+            LightOptions { refraction: Some(1.33), ..none.clone() },
+            LightOptions { opacity: Some(0.5), ..none },
+        ] {
+            assert!(light.is_given_by(&Method::default()));
+            assert!(!light.is_given_by(&Method::Tree(Options::fitted())));
+        }
     }
 
     #[test]
@@ -280,6 +309,11 @@ mod tests {
             reflectivity: Some(share),
             ..mirror()
         });
+        numbers("opacity", &[-0.1, 1.1, nan], &|share| LightOptions {
+            opacity: Some(share),
+            ..none()
+        });
+        numbers("opacity", &[0.5], &|share| LightOptions { opacity: Some(share), ..mirror() });
         numbers("lamp", &[0.0], &|x| LightOptions { lamps: vec![Vec3::X * x], ..none() });
         numbers("lamp_size", &[-1.0, 181.0, nan], &|size| LightOptions {
             shadows: true,

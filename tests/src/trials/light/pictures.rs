@@ -14,7 +14,7 @@ use crate::trials::{load, on_adapter, on_gpu, view_of};
 pub(super) fn trials() -> Vec<Trial> {
     vec![
         on_gpu("light::same_seed_same_picture".to_owned(), same_seed_same_picture),
-        on_gpu("light::refused_without_a_ray_tracer".to_owned(), refused_without_a_ray_tracer),
+        on_gpu("light::what_is_not_given_is_refused".to_owned(), what_is_not_given_is_refused),
         on_gpu("light::one_surface_is_enough".to_owned(), one_surface_is_enough),
     ]
 }
@@ -84,7 +84,7 @@ fn one_surface_is_enough(gpu: &Gpu) -> Result<(), Failed> {
     Ok(())
 }
 
-fn refused_without_a_ray_tracer(gpu: &Gpu) -> Result<(), Failed> {
+fn what_is_not_given_is_refused(gpu: &Gpu) -> Result<(), Failed> {
     let bench = load("two-merging")?;
     let view = view_of(&bench)?;
     let fluid = Surface::Fluid { refraction: 1.33, absorption: Vec3::ZERO };
@@ -92,7 +92,8 @@ fn refused_without_a_ray_tracer(gpu: &Gpu) -> Result<(), Failed> {
     let refused = [
         ("illes", Effects { shadows: true, ..phong.clone() }),
         ("kanamori", Effects { bounces: 1, ..phong.clone() }),
-        ("fbvh", Effects { surface: fluid, ..phong }),
+        ("fbvh", Effects { surface: fluid, ..phong.clone() }),
+        ("fbvh-certified", Effects { surface: Surface::SeeThrough { opacity: 0.5 }, ..phong }),
     ];
     for (method, effects) in refused {
         let mut renderer = on_adapter(method)?;
