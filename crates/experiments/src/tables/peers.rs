@@ -1,6 +1,10 @@
 //! The command `tables peers`: the certified tree on the CPU against what a user would take instead,
 //! POV-Ray's `blob`, whose field is the power kernel's with α = 2.
 
+pub mod effect;
+pub mod lamp_truth;
+pub mod lit;
+mod lit_table;
 mod page;
 pub mod povray;
 pub mod run;
@@ -39,17 +43,17 @@ pub struct Options {
 
 impl Options {
     fn plan(&self) -> Vec<PlannedScene> {
-        let (scenes, size, rounds): (&[&str], _, _) = match self.extent {
-            Extent::Quick => (&["scattered:300", "pool:300"], (64, 48), 2),
+        let (scenes, size, [rounds, lit_rounds]): (&[&str], _, _) = match self.extent {
+            Extent::Quick => (&["scattered:300", "pool:300"], (64, 48), [2, 1]),
             Extent::Whole => (
                 &["scattered:10000", "scattered-100k", "pool-10k", "tornado-128k", "molecule"],
                 (640, 480),
-                5,
+                [5, 3],
             ),
         };
         let size = self.size.unwrap_or(size);
         let specs = named_or(&self.scenes, scenes);
-        specs.into_iter().map(|spec| PlannedScene { spec, size, rounds }).collect()
+        specs.into_iter().map(|spec| PlannedScene { spec, size, rounds, lit_rounds }).collect()
     }
 }
 
@@ -83,7 +87,10 @@ impl Report for Measurements {
     const NAME: &'static str = "peers";
 
     fn text(&self) -> String {
-        self.heading.text_with_remarks(&table(&self.scenes))
+        let lit = lit_table::table(&self.scenes);
+        let primary = table(&self.scenes);
+        let head = format!("\n{}\n{}\n\n{}", primary.title, primary.text(), lit.title);
+        format!("{head}\n{}", self.heading.text_with_remarks(&lit))
     }
 
     fn page(&self) -> String {
@@ -150,7 +157,7 @@ fn table(scenes: &[SceneResult<Measured>]) -> Table {
         Column::number("worst").of("radii"),
     ];
     let rows = scenes.iter().flat_map(rows_of).collect();
-    Table { title: "Tracing on the CPU".to_owned(), columns: columns.into(), rows }
+    Table { title: "Primary rays on the CPU".to_owned(), columns: columns.into(), rows }
 }
 
 fn rows_of(scene: &SceneResult<Measured>) -> Vec<Vec<String>> {
@@ -204,6 +211,8 @@ fn cells(traced: &Traced, ratio: String) -> [String; 10] {
 
 #[cfg(test)]
 mod tests {
+    use super::effect::LitEffect;
+    use super::lit::LitPair;
     use super::*;
     use crate::testing::{assert_stands_alone, read_back};
 
@@ -231,12 +240,34 @@ mod tests {
             // the range; what is left is its own error and an f32's.
             assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-5, "{scene:?}");
             assert_eq!(traced.trace_ms.samples.len(), 2);
+            for pair in &measured.lit {
+                assert_lit_alike(pair);
+            }
+            assert_eq!(measured.lit.len(), LitEffect::ALL.len());
         }
         let back = read_back(&measurements);
         assert_eq!((back.heading.provenance.schema.as_str(), back.scenes.len()), (SCHEMA, 2));
         let page = page::page(&measurements);
         assert_stands_alone(&page, &["skipped", "/tmp"]);
         assert!(page.contains("POV-Ray 3"));
+    }
+
+    /// Shadows fall on the same pixels, and mirrors nearly so: POV-Ray's scatter as much light at
+    /// grazing angles as head on.
+    fn assert_lit_alike(pair: &LitPair) {
+        let peer = pair.peer.as_ref().expect("drawn");
+        assert!(peer.process_ms.samples.len() == 1 && pair.ours.process_ms.samples.len() == 1);
+        let limit = if pair.effect == LitEffect::Shadows.name() { 0.01 } else { 0.5 };
+        assert!(pair.differing.is_none_or(|share| share < limit), "{pair:?}");
+        let work = peer.work_ms.as_ref().expect("its own clock");
+        assert!(work.median < peer.process_ms.median, "{pair:?}");
+        let is_occlusion = pair.effect == LitEffect::Occlusion.name();
+        for run in [&pair.ours, peer] {
+            assert_eq!(run.occlusion_rays > 0, is_occlusion, "{pair:?}");
+        }
+        for wrong in [pair.ours.wrong, peer.wrong].into_iter().flatten() {
+            assert_eq!((wrong.pixels, wrong.lit, wrong.dark), (16 * 12, 0, 0), "{pair:?}");
+        }
     }
 
     /// Without the peer ours and the oracle's rows remain, and it is said what is missing.
@@ -247,6 +278,12 @@ mod tests {
         assert_eq!(rows.len(), 3);
         assert!(rows[0].len() == columns.len() && rows[0][6].is_empty(), "{rows:?}");
         assert!(rows[1][2].contains("not installed") && rows[2][2] == "oracle", "{rows:?}");
+        let Table { columns, rows, .. } = lit_table::table(&measurements.scenes);
+        assert_eq!(rows.len(), 2 * LitEffect::ALL.len());
+        for pair in rows.chunks(2) {
+            assert!(pair[0].len() == columns.len() && pair[0][6].is_empty(), "{rows:?}");
+            assert!(pair[1][3].contains("not installed"), "{rows:?}");
+        }
         let page = page::page(&measurements);
         assert!(page.contains("apt-get install povray") && page.contains("skipped"), "{page}");
     }
@@ -254,7 +291,8 @@ mod tests {
     /// What cannot be loaded is a row with a reason.
     #[test]
     fn a_scene_that_fails_is_named() {
-        let planned = PlannedScene { spec: "nosuch".to_owned(), size: (4, 3), rounds: 1 };
+        let planned =
+            PlannedScene { spec: "nosuch".to_owned(), size: (4, 3), rounds: 1, lit_rounds: 1 };
         let rows = table(&measure(&[planned], None).scenes).rows;
         assert!(rows.len() == 1 && rows[0][2].contains("nosuch"), "{rows:?}");
     }

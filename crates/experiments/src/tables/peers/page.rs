@@ -1,6 +1,6 @@
-//! `peers.html`: the table for a person to read.
+//! `peers.html`: the tables for a person to read.
 
-use super::{Measurements, table};
+use super::{Measurements, lit_table, table};
 use crate::html::escape;
 use crate::page::{self, fact};
 
@@ -14,6 +14,7 @@ pub(super) fn page(measurements: &Measurements) -> String {
         ("facts", facts),
         ("remarks", measurements.heading.remark_paragraphs()),
         ("table", table(&measurements.scenes).html()),
+        ("lit", lit_table::table(&measurements.scenes).html()),
     ];
     page::page("What one would take instead", include_str!("page.html"), &parts)
 }

@@ -1,4 +1,4 @@
-//! Both tracers on one scene, in turns, and both against the oracle.
+//! Both tracers on one scene, in turns, and both against the oracle; primary rays, then lit pictures.
 
 use std::fs;
 use std::time::Instant;
@@ -12,7 +12,9 @@ use picture_files::HitImage;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 
-use super::povray::{Job, Povray, Times};
+use super::lit::{self, LitPair};
+use super::povray::Povray;
+use super::povray::primary::{Primary, Times};
 use crate::console::ProgressBar;
 use harness::imported::accuracy_of;
 use harness::measure::milliseconds;
@@ -32,12 +34,14 @@ pub struct PlannedScene {
     pub size: (u32, u32),
     /// Times that each traces the picture.
     pub rounds: usize,
+    /// Times that each draws the picture in each light.
+    pub lit_rounds: usize,
 }
 
 impl PlannedScene {
-    /// Steps of progress: the rounds, the peer's depths, the oracle.
+    /// Steps of progress: the rounds, the peer's depths, the oracle, the lit pictures.
     pub(super) fn steps(&self) -> u64 {
-        self.rounds as u64 + 2
+        self.rounds as u64 + 2 + lit::steps(self)
     }
 }
 
@@ -52,6 +56,9 @@ pub struct Measured {
     pub ours: Traced,
     /// POV-Ray, or why there is nothing of it.
     pub peer: Result<Traced, String>,
+    /// Lit pictures; none in records older than they.
+    #[serde(default)]
+    pub lit: Vec<LitPair>,
 }
 
 impl Measured {
@@ -87,7 +94,7 @@ pub struct Traced {
 /// the result.
 pub fn measure(
     planned: &PlannedScene,
-    peer: Option<&Povray>,
+    program: Option<&Povray>,
     progress: &ProgressBar,
 ) -> anyhow::Result<Measured> {
     let bench = load(&planned.spec, &Overrides::default())?;
@@ -98,17 +105,14 @@ pub fn measure(
 
     let mut ours = Rounds::default();
     let mut theirs = Rounds::default();
-    let job = peer.context("not installed").and_then(|peer| {
-        let job = Job::new(&scene, &view, THREADS)?;
-        Ok((peer, job))
-    });
+    let job = program.context("not installed").and_then(|_| Primary::new(&scene, &view, THREADS));
     let mut job = job.map_err(|error| format!("{error:#}"));
     let mut hits = Vec::new();
     for round in 1..=planned.rounds {
         progress.stage(format!("{}: round {round} of {}", planned.spec, planned.rounds));
         hits = pool.install(|| trace(&scene, &view, &mut ours))?;
-        if let Ok((peer, drawn)) = &job {
-            match peer.time(drawn) {
+        if let Ok(drawn) = &job {
+            match drawn.time() {
                 Ok(times) => theirs.add_peer(times),
                 Err(error) => job = Err(format!("{error:#}")),
             }
@@ -116,7 +120,7 @@ pub fn measure(
         progress.advance(1);
     }
     progress.stage(format!("{}: depths", planned.spec));
-    let depths = job.and_then(|(peer, job)| peer.hits(&job).map_err(|error| format!("{error:#}")));
+    let depths = job.and_then(|job| job.hits().map_err(|error| format!("{error:#}")));
     progress.advance(1);
 
     progress.stage(format!("{}: oracle", planned.spec));
@@ -128,7 +132,8 @@ pub fn measure(
         Ok(image) => Ok(theirs.summary(&image.hits, accuracy_of(&image, &reference)?)),
         Err(reason) => Err(reason),
     };
-    Ok(Measured { balls: scene.len(), kernel, ours, peer })
+    let lit = lit::measure(planned, program, &pool, progress)?;
+    Ok(Measured { balls: scene.len(), kernel, ours, peer, lit })
 }
 
 fn images<'a>(ours: &'a [Hit], theirs: &'a Result<HitImage, String>) -> Vec<&'a [Hit]> {

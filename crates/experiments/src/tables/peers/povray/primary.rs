@@ -1,0 +1,139 @@
+//! Primary rays: POV-Ray's own clocks, and depths out of its colours.
+
+use image::Rgb;
+use metaball_core::{Hit, Scene, Verdict, View};
+use picture_files::HitImage;
+
+use super::blob::{Look, scene_text, vector};
+use super::job::Job;
+use super::log::clocks;
+
+/// Periods of the fine channel over the range of the coarse one. A step of 16 bits in the coarse one
+/// is a sixteenth of a period, so the period is never uncertain.
+const PERIODS: f64 = 4096.0;
+
+/// Its own clocks, milliseconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Times {
+    /// Parsing the scene and making the blob's hierarchy, by the wall's clock.
+    pub parse: f64,
+    /// Tracing, by the wall's clock.
+    pub trace: f64,
+    /// Tracing, summed over its threads.
+    pub trace_cpu: f64,
+}
+
+/// A view of a scene, in white, or in colours that tell its depth.
+#[derive(Debug)]
+pub struct Primary<'a> {
+    view: &'a View,
+    /// No surface is deeper than this.
+    range: f64,
+    job: Job,
+}
+
+impl<'a> Primary<'a> {
+    /// Writes the scene down. The field is that of α = 2 whatever the scene's kernel is.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn new(scene: &Scene, view: &'a View, threads: usize) -> anyhow::Result<Self> {
+        let range = range(scene, view);
+        let job = Job::new(&scene_text(scene, view, &look(view, range)), view, threads)?;
+        Ok(Self { view, range, job })
+    }
+
+    /// Draws the scene in white, and reads the program's clocks.
+    ///
+    /// # Errors
+    /// When it fails, with its own words, or does not say how long it took.
+    pub fn time(&self) -> anyhow::Result<Times> {
+        let log = self.job.draw(&[])?;
+        let (parse, _) = clocks(&log, "Parse Time:")?;
+        let (trace, trace_cpu) = clocks(&log, "Trace Time:")?;
+        Ok(Times { parse, trace, trace_cpu })
+    }
+
+    /// Draws the scene with its depth for a colour, and reads the hits off the picture, row by row
+    /// from the top left; without normals. Distances are along POV-Ray's own rays, which are f64.
+    ///
+    /// # Errors
+    /// When it fails, with its own words, or leaves no picture of the size.
+    pub fn hits(&self) -> anyhow::Result<HitImage> {
+        self.job.draw(&["Depth"])?;
+        let picture = self.job.picture()?;
+        let (width, height) = picture.dimensions();
+        let camera = self.view.camera();
+        let forward = camera.forward().as_dvec3().normalize();
+        let hit = |(column, row, color): (u32, u32, &Rgb<u16>)| {
+            depth_of(*color, self.range).map_or(Hit::MISS, |depth| {
+                let direction = camera.exact_direction(column, row, width, height);
+                let t = (depth / direction.dot(forward)) as f32;
+                Hit { verdict: Verdict::Hit, t, ..Hit::MISS }
+            })
+        };
+        let hits = picture.enumerate_pixels().map(hit).collect();
+        Ok(HitImage { width, height, hits, has_normals: false })
+    }
+}
+
+/// The depth beyond which there is no ball, with a margin for the coarse channel's last step.
+fn range(scene: &Scene, view: &View) -> f64 {
+    let eye = view.camera().eye().as_dvec3();
+    let reach = scene
+        .supports()
+        .iter()
+        .map(|support| support.center.as_dvec3().distance(eye) + f64::from(support.radius));
+    1.01 * reach.fold(0.0, f64::max).max(f64::from(f32::MIN_POSITIVE))
+}
+
+/// White, or with `Depth` declared blue where there is a surface, red the depth over the range, and
+/// green its fraction at [`PERIODS`] periods.
+fn look(view: &View, range: f64) -> Look {
+    let camera = view.camera();
+    let eye = vector(camera.eye().as_dvec3());
+    let gradient = vector(camera.forward().as_dvec3().normalize());
+    let channel = |from: &str, to: &str, period: f64| {
+        format!(
+            "[1 gradient {gradient} color_map {{ [0 rgb {from}] [1 rgb {to}] }} scale {period:e}]"
+        )
+    };
+    // The average of two pigments is half of either.
+    let coarse = channel("<0,0,2>", "<2,0,2>", range);
+    let fine = channel("<0,0,0>", "<0,2,0>", range / PERIODS);
+    let surface = format!(
+        "#ifdef (Depth)\n\
+         pigment {{ average pigment_map {{\n{coarse}\n{fine}\n}} translate {eye} }}\n\
+         #else\npigment {{ rgb 1 }}\n#end\n\
+         finish {{ emission 1 ambient 0 diffuse 0 }}"
+    );
+    Look { surface, ..Look::default() }
+}
+
+/// The depth that a colour encodes; `None` where nothing was hit.
+fn depth_of(Rgb([coarse, fine, blue]): Rgb<u16>, range: f64) -> Option<f64> {
+    let share = |channel: u16| f64::from(channel) / f64::from(u16::MAX);
+    let (coarse, fine) = (share(coarse), share(fine));
+    let period = (coarse * PERIODS - fine).round();
+    (share(blue) > 0.5).then(|| range * (period + fine) / PERIODS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depths_survive_two_channels() {
+        let range = 7.5;
+        for step in 0..100_000 {
+            let depth = range * (f64::from(step) + 0.37) / 100_000.0;
+            let channel = |share: f64| (share * 65_535.0).round() as u16;
+            let (coarse, fine) = (depth / range, (depth / range * PERIODS).fract());
+            let color = Rgb([channel(coarse), channel(fine), u16::MAX]);
+            let found = depth_of(color, range).expect("blue");
+            // Half a step of the fine channel.
+            assert!((found - depth).abs() <= range / PERIODS / 65_535.0, "{depth} {found}");
+        }
+        assert_eq!(depth_of(Rgb([9, 9, 0]), range), None);
+    }
+}
