@@ -16,8 +16,9 @@ cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` i
                                  compare, score, diff, chart, stability, certify, render,
                                  animate, tables, scenes, methods; `help` lists them
 
-Both set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the
-rights to do so, they install Mesa's software one. With --cpu none is needed.
+They set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the
+rights to do so, they install Mesa's software one. With --cpu none is needed, nor for render and
+animate, unless --software or --adapter asks for one.
 ";
 
 fn main() -> ExitCode {
@@ -33,12 +34,10 @@ fn main() -> ExitCode {
             run::say(HELP);
             run::metaball(&["--help".to_owned()])
         }
-        // These need no adapter.
-        Some("scenes" | "methods" | "score" | "diff") => run::metaball(&arguments),
-        Some(_) if arguments.iter().any(|argument| argument == "--cpu") => {
-            run::metaball(&arguments)
+        Some(command) if needs_adapter(command, &arguments[1..]) => {
+            adapter::ensure().and_then(|_| run::metaball(&arguments))
         }
-        Some(_) => adapter::ensure().and_then(|_| run::metaball(&arguments)),
+        Some(_) => run::metaball(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -46,5 +45,38 @@ fn main() -> ExitCode {
             run::complain(&failure);
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Whether a command of `metaball` draws with an adapter: the CPU draws pictures unless one is asked for.
+fn needs_adapter(command: &str, arguments: &[String]) -> bool {
+    let asks_for = |flags: &[&str]| {
+        let name = |argument: &String| {
+            argument.split('=').next().is_some_and(|name| flags.contains(&name))
+        };
+        arguments.iter().any(name)
+    };
+    match command {
+        "scenes" | "methods" | "score" | "diff" => false,
+        "render" | "animate" => asks_for(&["--software", "--adapter"]),
+        _ => !asks_for(&["--cpu"]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_draws_with_an_adapter_needs_one() {
+        let needs = |line: &str| {
+            let words: Vec<_> = line.split(' ').map(str::to_owned).collect();
+            needs_adapter(&words[0], &words[1..])
+        };
+        assert!(needs("compare molecule") && needs("stability") && needs("render x --software"));
+        assert!(needs("animate splash --adapter=llvmpipe"));
+        assert!(
+            !needs("compare --cpu") && !needs("render molecule --shadows") && !needs("score a b")
+        );
     }
 }
