@@ -12,7 +12,7 @@ const STRIDE: usize = 4;
 
 /// Where a shadow ray starts above the surface, in least radii. Where the two do not agree, it is not
 /// clear whether the lamp shines.
-const STARTS: [f64; 2] = [1e-3, 3e-3];
+const STARTS: [f64; 2] = [1e-4, 3e-3];
 
 /// The cosine below which a surface that faces the lamp is too dark to tell.
 const TELLING_COSINE: f64 = 0.02;
