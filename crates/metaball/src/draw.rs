@@ -121,8 +121,7 @@ pub fn draw(scene: &Scene, camera: &Camera, options: &DrawOptions) -> Result<Dra
         Attempt::Drawn(drawing) => Ok(*drawing),
         Attempt::Left { computed_by } => {
             let lighting = options.lighting(&view, scene)?;
-            let drawing = on_cpu(options, lighting.as_ref(), scene, &view)?;
-            Ok(Drawing { summary: Summary { computed_by, ..drawing.summary }, ..drawing })
+            on_cpu(options, lighting.as_ref(), scene, &view, computed_by)
         }
     }
 }
@@ -147,11 +146,8 @@ pub(crate) fn on_adapter(
     let Some(gpu) = &opened.gpu else {
         return Ok(Attempt::Left { computed_by: opened.describe() });
     };
-    match drawn_by(gpu, options, scene, view, progress) {
-        Ok(drawing) => {
-            let summary = Summary { computed_by: opened.describe(), ..drawing.summary };
-            Ok(Attempt::Drawn(Box::new(Drawing { summary, ..drawing })))
-        }
+    match drawn_by((gpu, opened.describe()), options, scene, view, progress) {
+        Ok(drawing) => Ok(Attempt::Drawn(Box::new(drawing))),
         Err(Error::Render(refusal)) if refusal.is_too_large() && options.is_for_cpu() => {
             let computed_by = format!("the CPU, being too large for the adapter: {refusal}");
             Ok(Attempt::Left { computed_by })
@@ -162,7 +158,7 @@ pub(crate) fn on_adapter(
 }
 
 fn drawn_by(
-    gpu: &Gpu,
+    (gpu, computed_by): (&Gpu, String),
     options: &DrawOptions,
     scene: &Scene,
     view: &View,
@@ -176,14 +172,7 @@ fn drawn_by(
     let mut hits = targets.read_hits(gpu)?;
     let asked_again = certain.decide(gpu, &targets, view, &mut hits)?;
     let tally = Tally { frame, asked_again, ..Tally::of(&hits) };
-    let mut summary = Summary {
-        tally,
-        range: None,
-        samples: None,
-        account,
-        computed_by: gpu.report().name.clone(),
-        build,
-    };
+    let mut summary = Summary { tally, range: None, samples: None, account, computed_by, build };
     let Some(lighting) = options.lighting(view, scene)? else {
         let shaded = Shading::new(gpu).draw(&targets, view, scene, options.picture)?;
         summary.range = shaded.range;
@@ -240,12 +229,13 @@ fn chosen(
     Ok(Prepared { renderer, build, account })
 }
 
-/// Draws without an adapter, in this light, if there is any.
+/// Draws without an adapter, in this light, if there is any. `computed_by` says why, in words.
 pub(crate) fn on_cpu(
     options: &DrawOptions,
     lighting: Option<&Lighting>,
     scene: &Scene,
     view: &View,
+    computed_by: String,
 ) -> Result<Drawing, Error> {
     let built = Built::new(&options.method, scene)?;
     let tracer = built.tracer(scene, &options.clip)?;
@@ -269,7 +259,7 @@ pub(crate) fn on_cpu(
         range,
         samples: lighting.map(Lighting::samples),
         account: options.method.account(),
-        computed_by: "the CPU".to_owned(),
+        computed_by,
         build: built.time,
     };
     Ok(Drawing {

@@ -73,8 +73,8 @@ pub fn draw_to_files(
             Attempt::Left { computed_by } => computed_by,
         }
     };
-    let job = Job { scene, view: &view, options, outputs, band_pixels: None };
-    Ok(Summary { computed_by, ..job.draw(progress)? })
+    let job = Job { scene, view: &view, options, outputs, computed_by, band_pixels: None };
+    job.draw(progress)
 }
 
 /// Writes what was drawn at once.
@@ -93,6 +93,8 @@ struct Job<'a> {
     view: &'a View,
     options: &'a DrawOptions,
     outputs: &'a Outputs,
+    /// Why it is the CPU, in words.
+    computed_by: String,
     /// Pixels of a band; as many as suit the picture when left out.
     band_pixels: Option<u32>,
 }
@@ -122,7 +124,7 @@ impl Job<'_> {
             range: finisher.and_then(|finisher| finisher.scale()),
             samples: lighting.map(|lighting| lighting.samples()),
             account: options.method.account(),
-            computed_by: "the CPU".to_owned(),
+            computed_by: self.computed_by.clone(),
             build: built.time,
         })
     }
@@ -256,7 +258,8 @@ mod tests {
     ) -> Result<Summary, Error> {
         let view = options.view(&bench.scene, &bench.camera)?;
         let scene = &bench.scene;
-        let job = Job { scene, view: &view, options, outputs, band_pixels: Some(1) };
+        let computed_by = "the CPU".to_owned();
+        let job = Job { scene, view: &view, options, outputs, computed_by, band_pixels: Some(1) };
         job.draw(|progress| {
             assert_eq!(progress.of, 70);
             let is_end = progress.stage == end.0 && progress.done >= end.1;

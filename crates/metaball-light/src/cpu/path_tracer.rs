@@ -88,11 +88,14 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
         Rows { light, rays }
     }
 
-    /// The light of some pixels, named by their indices row by row: the mean of all samples.
+    /// The light of some pixels, named by their indices row by row: the mean of all samples. As many
+    /// as a tile's are followed together, on rayon's current pool.
     pub fn pixels(&self, pixels: &[u32]) -> Vec<Vec3> {
-        let mut scratch = Scratch::new(self.tracer.scratch());
-        let sums = self.sums(pixels, &mut scratch);
-        sums.into_iter().map(|sum| sum / self.samples as f32).collect()
+        let sums = pixels.par_chunks((TILE * TILE) as usize).map_init(
+            || Scratch::new(self.tracer.scratch()),
+            |scratch, pixels| self.sums(pixels, scratch),
+        );
+        sums.flatten().map(|sum| sum / self.samples as f32).collect()
     }
 
     /// Pixels of a tile, and the sums of their samples.

@@ -160,7 +160,8 @@ impl Job<'_> {
         let none = FrameTimes::default();
         let (Some(gpu), Some(renderer)) = (self.gpu, renderer) else {
             let start = Instant::now();
-            let drawn = on_cpu(self.options, self.lighting, scene, self.view)?;
+            let computed_by = "the CPU".to_owned();
+            let drawn = on_cpu(self.options, self.lighting, scene, self.view, computed_by)?;
             let Summary { build, tally, .. } = drawn.summary;
             let (build_ms, draw_ms) = (milliseconds(build), milliseconds(tally.frame));
             let shade_ms = milliseconds(start.elapsed()) - build_ms - draw_ms;
