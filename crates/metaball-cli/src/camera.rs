@@ -3,6 +3,7 @@
 use clap::Args;
 use glam::Vec3;
 use metaball::Viewpoint;
+use metaball_core::CameraError;
 
 use crate::values::vector;
 
@@ -15,7 +16,8 @@ pub(crate) struct CameraArgs {
     /// What it looks at, world space.
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     look_at: Option<Vec3>,
-    /// What is up in the picture; the y axis for another eye or direction.
+    /// What is up in the picture; for another eye or direction the y axis, or the z axis where the view is
+    /// along that.
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     up: Option<Vec3>,
     /// Degrees from the bottom of the picture to its top.
@@ -27,5 +29,39 @@ impl CameraArgs {
     pub(crate) fn viewpoint(&self) -> Viewpoint {
         let &Self { eye, look_at, up, fov } = self;
         Viewpoint { eye, look_at, up, fov }
+    }
+}
+
+/// The error, with an option as it is written on the command line.
+pub(crate) fn by_flag(error: CameraError) -> anyhow::Error {
+    match error {
+        CameraError::Up { found } => {
+            anyhow::anyhow!("--up: needed a direction that is not along the view's, found {found}")
+        }
+        CameraError::FieldOfView { found } => {
+            anyhow::anyhow!("--fov: needed an angle above 0 and below 180, found {found}")
+        }
+        CameraError::NoDirection { found } => {
+            anyhow::anyhow!("--eye, --look-at: needed two points, found both at {found}")
+        }
+        error => error.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use metaball::Camera;
+
+    use super::*;
+
+    #[test]
+    fn mistakes_are_named_by_their_options() {
+        let refused = |eye, up, fov| {
+            let camera = Camera::look_at(eye, Vec3::ZERO, up, fov);
+            by_flag(camera.expect_err("refused")).to_string()
+        };
+        assert!(refused(Vec3::Y, Vec3::Y, 38.0).starts_with("--up: needed"));
+        assert!(refused(Vec3::Z, Vec3::Y, 180.0).ends_with("found 180"));
+        assert!(refused(Vec3::ZERO, Vec3::Y, 38.0).starts_with("--eye, --look-at: needed"));
     }
 }

@@ -21,7 +21,7 @@ use harness::measure::Sampling;
 use harness::methods::{HEADLINERS, Method, methods};
 use metaball_core::Camera;
 
-use crate::camera::CameraArgs;
+use crate::camera::{CameraArgs, by_flag};
 use crate::names::{case_parser, configuration_parser, method_parser};
 use crate::shared::{AdapterArgs, FieldArgs, PictureArgs, extent};
 use crate::values;
@@ -120,8 +120,8 @@ impl ScoreArgs {
         // What is wrong with the hits is said before a large scene is loaded.
         let imported = hits.map(|file| ImportedHits::read(&name, &file)).transpose()?;
         let mut bench = bench_scenes::load(&scene, &field.overrides())?;
-        bench.camera =
-            viewpoint.viewpoint().camera(&bench.camera, bench.scene.bounds().center())?;
+        let middle = bench.scene.bounds().center();
+        bench.camera = viewpoint.viewpoint().camera(&bench.camera, middle).map_err(by_flag)?;
         if camera {
             console::line(&camera_text(&bench.camera));
         }

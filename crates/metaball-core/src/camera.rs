@@ -92,8 +92,24 @@ impl Camera {
         })
     }
 
+    /// A camera with y up, or with z up where it looks along y: see [`look_at`](Self::look_at).
+    ///
+    /// # Errors
+    /// Names the argument that makes no camera.
+    pub fn upright(
+        eye: Vec3,
+        look_at: Vec3,
+        vertical_fov_degrees: f32,
+    ) -> Result<Self, CameraError> {
+        let towards = |up| Self::look_at(eye, look_at, up, vertical_fov_degrees);
+        towards(Vec3::Y).or_else(|error| match error {
+            CameraError::Up { .. } => towards(Vec3::Z),
+            error => Err(error),
+        })
+    }
+
     /// A camera outside the box that frames its bounding sphere, seen from `direction` (from the
-    /// middle of the box towards the eye; not zero, not along y), with y up and a field of view of
+    /// middle of the box towards the eye; not zero), [upright](Self::upright) and with a field of view of
     /// 38°. An empty box is framed as a unit cube at the origin.
     pub fn framing(bounds: &Aabb, direction: Vec3) -> Self {
         const FIELD_OF_VIEW: f32 = 38.0;
@@ -104,9 +120,8 @@ impl Camera {
         };
         let distance = radius / (0.5 * FIELD_OF_VIEW).to_radians().sin();
         let direction = direction.try_normalize().unwrap_or(Vec3::Z);
-        let up = if direction.cross(Vec3::Y).length() > 1e-3 { Vec3::Y } else { Vec3::Z };
         // A speck far from the origin can be nearer than the next float: then any camera will do.
-        Self::look_at(center + distance * direction, center, up, FIELD_OF_VIEW).unwrap_or(Self {
+        Self::upright(center + distance * direction, center, FIELD_OF_VIEW).unwrap_or(Self {
             eye: center,
             right: Vec3::X,
             up: Vec3::Y,
@@ -372,6 +387,18 @@ mod tests {
         }
         assert_eq!(view.rays_of_rows(23..30), []);
         assert_ne!(view.rays_of_rows(0..8), view.rays_of_rows(8..16));
+    }
+
+    #[test]
+    fn z_is_up_where_y_is_ahead() {
+        for (eye, up) in [(Vec3::Y, Vec3::Z), (Vec3::NEG_Y, Vec3::Z), (Vec3::Z, Vec3::Y)] {
+            let camera = Camera::upright(10.0 * eye, Vec3::ZERO, 38.0).expect("legal");
+            assert_eq!(Ok(camera), Camera::look_at(10.0 * eye, Vec3::ZERO, up, 38.0));
+        }
+        let tilted = Camera::upright(Vec3::new(0.0, 10.0, 0.01), Vec3::ZERO, 38.0).expect("legal");
+        assert!(tilted.up().z < -0.99, "y is up as long as it can be");
+        assert!(Camera::upright(Vec3::Y, Vec3::Y, 38.0).is_err());
+        assert!(Camera::upright(Vec3::Y, Vec3::ZERO, 180.0).is_err());
     }
 
     #[test]

@@ -10,7 +10,8 @@ pub struct Viewpoint {
     pub eye: Option<Vec3>,
     /// What it looks at, world space.
     pub look_at: Option<Vec3>,
-    /// What is up in the picture; the y axis for another eye or direction.
+    /// What is up in the picture; for another eye or direction the y axis, or the z axis where the view is
+    /// along that.
     pub up: Option<Vec3>,
     /// Degrees from the bottom of the picture to its top.
     pub fov: Option<f32>,
@@ -32,10 +33,13 @@ impl Viewpoint {
         }
         let eye = self.eye.unwrap_or(own.eye());
         let ahead = if self.eye.is_some() { middle } else { eye + own.forward() };
-        let turns = self.eye.is_some() || self.look_at.is_some();
-        let up = self.up.unwrap_or(if turns { Vec3::Y } else { own.up() });
+        let look_at = self.look_at.unwrap_or(ahead);
         let degrees = self.fov.unwrap_or(2.0 * own.half_height().atan().to_degrees());
-        Camera::look_at(eye, self.look_at.unwrap_or(ahead), up, degrees)
+        let turns = self.eye.is_some() || self.look_at.is_some();
+        match self.up.or((!turns).then_some(own.up())) {
+            Some(up) => Camera::look_at(eye, look_at, up, degrees),
+            None => Camera::upright(eye, look_at, degrees),
+        }
     }
 }
 
@@ -56,6 +60,10 @@ mod tests {
         let moved = moved.expect("a camera");
         assert!((moved.forward() - (Vec3::Y - Vec3::X).normalize()).length() < 1e-6);
         assert!((moved.half_height() - own.half_height()).abs() < 1e-6);
+        let above = Viewpoint { eye: Some(9.0 * Vec3::Y), ..Default::default() };
+        let top = camera(above).expect("a camera");
+        assert!(top.up().z > 0.99 && top.forward().y < -0.99);
+        assert!(camera(Viewpoint { up: Some(Vec3::Y), ..above }).is_err());
         let within = Viewpoint { look_at: Some(Vec3::Z), ..Default::default() };
         assert!(camera(within).is_err());
     }

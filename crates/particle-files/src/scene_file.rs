@@ -3,7 +3,6 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
 use metaball_core::{Camera, Kernel};
 use serde::Deserialize;
 use toml::Spanned;
@@ -63,14 +62,9 @@ struct Keys {
 struct CameraKeys {
     eye: [f32; 3],
     look_at: [f32; 3],
-    #[serde(default = "y_up")]
-    up: [f32; 3],
+    up: Option<[f32; 3]>,
     #[serde(default = "field_of_view")]
     vertical_fov_degrees: f32,
-}
-
-fn y_up() -> [f32; 3] {
-    Vec3::Y.to_array()
 }
 
 fn field_of_view() -> f32 {
@@ -117,8 +111,12 @@ fn kernel(keys: &Keys, text: &str) -> Result<Kernel, Flaw> {
 
 fn camera_of(keys: &Spanned<CameraKeys>, text: &str) -> Result<Camera, Flaw> {
     let CameraKeys { eye, look_at, up, vertical_fov_degrees } = *keys.get_ref();
-    Camera::look_at(eye.into(), look_at.into(), up.into(), vertical_fov_degrees)
-        .map_err(|error| at(Flaw::new(error.to_string()), text, keys.span().start))
+    let (eye, look_at) = (eye.into(), look_at.into());
+    match up {
+        Some(up) => Camera::look_at(eye, look_at, up.into(), vertical_fov_degrees),
+        None => Camera::upright(eye, look_at, vertical_fov_degrees),
+    }
+    .map_err(|error| at(Flaw::new(error.to_string()), text, keys.span().start))
 }
 
 /// The flaw at a byte of the text.
@@ -131,6 +129,7 @@ fn at(flaw: Flaw, text: &str, byte: usize) -> Flaw {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
     use proptest::prelude::*;
 
     use super::*;
@@ -202,6 +201,10 @@ vertical_fov_degrees = 40
              \"wyvill\""
         );
         assert!(with("up = [0.0, 1.0, 0.0]", "up = [2.2, 1.7, 3.4]").contains("camera up: needed"));
+        let from_above = FULL.replace("[2.2, 1.7, 3.4]", "[0.0, 9.0, 0.0]");
+        assert!(refusal(&from_above).contains("camera up: needed"));
+        let upright = parse(&from_above.replace("up = [0.0, 1.0, 0.0]", "")).expect("legal");
+        assert!(upright.camera.expect("a camera").up().z > 0.99);
         assert!(with("[2.2, 1.7, 3.4]", "[2.2, 1.7]").starts_with("a.toml, line 7, column 7:"));
         assert!(with("0.2\n", "\n").starts_with("a.toml, line 5"));
         assert!(with("eye", "eyes").contains("unknown field `eyes`"));
