@@ -5,6 +5,7 @@
 
 mod camera;
 mod clip;
+mod display;
 mod draw;
 mod light;
 mod list;
@@ -85,7 +86,8 @@ pub fn run() -> ExitCode {
     run_with([])
 }
 
-/// The same with methods of another crate, which join every command as those of this workspace do.
+/// The same with methods of another crate, which join every command as those of this workspace do. On
+/// Linux the process may be started anew, in its own place, so this is what it does first.
 ///
 /// ```no_run
 /// # fn renderer(counting: bool) -> Renderer {
@@ -114,7 +116,12 @@ pub fn run() -> ExitCode {
 /// ```
 pub fn run_with(own: impl IntoIterator<Item = Method>) -> ExitCode {
     let outcome = add_methods(own).map_err(anyhow::Error::from);
-    match outcome.and_then(|()| obey(Cli::parse().command)) {
+    let obeyed = outcome.and_then(|()| {
+        let command = Cli::parse().command;
+        display::leave_out();
+        obey(command)
+    });
+    match obeyed {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             console::note(&format!("metaball: {error:#}"));
