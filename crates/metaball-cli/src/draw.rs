@@ -1,11 +1,11 @@
 //! The commands that draw: `render` and `animate`.
 
 use std::ops::{ControlFlow, Range};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::{Context, bail, ensure};
-use bench_scenes::{Moving, load};
+use anyhow::{Context, ensure};
+use bench_scenes::{Moving, inputs, load};
 use clap::Args;
 use experiments::console::{self, ProgressBar};
 use harness::auto::MAX_ERROR;
@@ -19,7 +19,7 @@ use metaball::{
 };
 use metaball_core::{Color, Picture, Scene};
 
-use crate::camera::CameraArgs;
+use crate::camera::{self, CameraArgs};
 use crate::clip::ClipArgs;
 use crate::light::LightArgs;
 use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
@@ -103,18 +103,18 @@ pub(crate) struct RenderArgs {
     /// With auto, neither look for a choice made earlier nor keep the one made now.
     #[arg(long)]
     ignore_cache: bool,
-    /// Where the PNG goes.
+    /// Where the picture goes: .png, or .jpg or .jpeg of quality 95 and at most 65,535 pixels a side.
     #[arg(long, value_name = "FILE", default_value = "out/image.png")]
     out: PathBuf,
-    /// Write distances and normals too: as f32 channels (Z, N.X, N.Y, N.Z) of an OpenEXR file, or as a
-    /// NumPy array (.npy).
+    /// Write distances and normals too: as f32 channels (Z, N.X, N.Y, N.Z) of an OpenEXR file (.exr), or as
+    /// a NumPy array (.npy).
     #[arg(long, value_name = "FILE")]
     hits: Option<PathBuf>,
-    /// Write the picture's linear light as an OpenEXR file too.
+    /// Write the picture's linear light as an OpenEXR file (.exr) too.
     #[arg(long, value_name = "FILE", requires = "LightArgs")]
     light_out: Option<PathBuf>,
     /// Go on with a picture that the CPU began and that was interrupted. What is finished is in a file
-    /// beside the PNG, named like it with .spool behind; without this it is in the way of drawing the
+    /// beside the picture, named like it with .spool behind; without this it is in the way of drawing the
     /// same picture anew.
     #[arg(long)]
     resume: bool,
@@ -133,19 +133,21 @@ impl RenderArgs {
             console::note("auto: drawing with every candidate, and asking the oracle");
         }
         let bench = load(&scene, &overrides)?;
-        let outputs = Outputs { image: out, hits, light: light_out, resume };
+        let inputs = inputs(&scene);
+        let outputs = Outputs { image: out, hits, light: light_out, resume, inputs };
         let mut bars = Bars::default();
         let summary = draw_to_files(&bench.scene, &bench.camera, &options, &outputs, |progress| {
             bars.show(progress);
             ControlFlow::Continue(())
         });
         drop(bars);
-        report(&bench.name, &bench.scene, &summary.map_err(by_flag)?);
         let files = [("picture", Some(&outputs.image)), ("hits file", outputs.hits.as_ref())];
-        for (name, path) in files.into_iter().chain([("light file", outputs.light.as_ref())]) {
-            if let Some(path) = path {
-                line(name, &path.display().to_string());
-            }
+        let files = files.into_iter().chain([("light file", outputs.light.as_ref())]);
+        let files: Vec<_> = files.filter_map(|(name, path)| Some((name, path?))).collect();
+        let says = speaker(files.iter().map(|(_, path)| path.as_path()));
+        report(says, &bench.name, &bench.scene, &summary.map_err(by_flag)?);
+        for (name, path) in files {
+            line(says, name, &path.display().to_string());
         }
         Ok(())
     }
@@ -178,16 +180,18 @@ impl RenderArgs {
 pub(crate) struct AnimateArgs {
     #[command(flatten)]
     drawing: DrawingArgs,
-    /// Frames, the last one not included; all, or the first seconds of what never ends.
+    /// Frames, the last one not included; all that there are, or the first seconds of what never ends.
+    /// One that is not there is an error at the end, when the others are drawn.
     #[arg(long, value_name = "A..B", value_parser = values::frame_range)]
     frames: Option<Range<u32>>,
     /// Draw every Nth of them.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     every: u32,
-    /// Where the PNGs go: %d stands for the frame's number, %04d for four digits or more.
+    /// Where the pictures go, .png, .jpg or .jpeg: %d stands for the frame's number, %04d for four digits
+    /// or more.
     #[arg(long, value_name = "FILE", default_value = "out/frame-%04d.png")]
     out: NumberedPath,
-    /// Write a picture of all these frames side by side too.
+    /// Write a picture of all these frames side by side too: .png, .jpg or .jpeg.
     #[arg(long, value_name = "FILE")]
     sheet: Option<PathBuf>,
     /// Draw all frames, those that are there too.
@@ -207,7 +211,8 @@ impl AnimateArgs {
         );
         let Request { scene, overrides, options: draw } = drawing.request(None)?;
         let moving = Moving::load(&scene, &overrides)?;
-        let options = AnimateOptions { draw, frames, every, out, sheet, force, in_turn };
+        let inputs = inputs(&scene);
+        let options = AnimateOptions { draw, frames, every, out, sheet, force, in_turn, inputs };
         let mut progress = None;
         let (report, path) = animate(&moving, &options, |event| match event {
             AnimationEvent::Begins { missing, kept, absent } => {
@@ -231,16 +236,25 @@ impl AnimateArgs {
         })
         .map_err(by_flag)?;
         drop(progress);
-        report_animation(&report);
-        line("report", &path.display().to_string());
+        let says = speaker(options.sheet.iter().map(PathBuf::as_path));
+        report_animation(says, &report);
+        line(says, "report", &path.display().to_string());
         let broken: Vec<_> = report.broken().collect();
         for (number, error) in &broken {
             console::note(&format!("frame {number}: {error}"));
         }
+        let mut faults = Vec::new();
         if !broken.is_empty() {
             let all = report.frames.len() + report.kept.len();
-            bail!("{} of {all} frames could not be drawn", broken.len());
+            faults.push(format!("{} of {all} frames could not be drawn", broken.len()));
         }
+        if let (Some(Range { start, end }), false) = (options.frames, report.absent.is_empty()) {
+            let absent = rows_text(&report.absent);
+            faults.push(format!(
+                "--frames {start}..{end}: needed frames that are there, found none for {absent}"
+            ));
+        }
+        ensure!(faults.is_empty(), "{}", faults.join("; "));
         Ok(())
     }
 }
@@ -251,12 +265,22 @@ fn by_flag(error: Error) -> anyhow::Error {
         Error::Option { option, needed, found } => {
             anyhow::anyhow!("--{}: needed {needed}, found {found}", option.replace('_', "-"))
         }
+        Error::Camera(error) => camera::by_flag(error),
         error => error.into(),
     }
 }
 
-fn line(name: &str, value: &str) {
-    console::line(&format!("{name:<10} {value}"));
+/// What says a line.
+type Says = fn(&str);
+
+/// Says what became of a run: on standard error where one of its files is standard output.
+fn speaker<'a>(mut files: impl Iterator<Item = &'a Path>) -> Says {
+    let names = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].map(Path::new);
+    if files.any(|path| names.contains(&path)) { console::note } else { console::line }
+}
+
+fn line(says: Says, name: &str, value: &str) {
+    says(&format!("{name:<10} {value}"));
 }
 
 /// How far a picture is, on a terminal.
@@ -282,24 +306,24 @@ impl Bars {
     }
 }
 
-fn report(name: &str, scene: &Scene, summary: &Summary) {
+fn report(says: Says, name: &str, scene: &Scene, summary: &Summary) {
     let Summary { tally, range, samples, account, computed_by, build, .. } = summary;
     let time = |time: &Duration| ms(1e3 * time.as_secs_f64());
-    line("scene", name);
-    line("balls", &format!("{} of kernel {}", grouped(scene.len()), scene.kernel()));
-    line("threshold", &scene.threshold().to_string());
+    line(says, "scene", name);
+    line(says, "balls", &format!("{} of kernel {}", grouped(scene.len()), scene.kernel()));
+    line(says, "threshold", &scene.threshold().to_string());
     for (name, value) in account {
-        line(name, value);
+        line(says, name, value);
     }
-    line("drawn by", computed_by);
-    line("build", &time(build));
-    line("frame", &time(&tally.frame));
-    line("rays", &ray_facts(tally));
+    line(says, "drawn by", computed_by);
+    line(says, "build", &time(build));
+    line(says, "frame", &time(&tally.frame));
+    line(says, "rays", &ray_facts(tally));
     if let Some(samples) = samples {
-        line("light", &light_facts(tally, *samples));
+        line(says, "light", &light_facts(tally, *samples));
     }
     if let Some(range) = range {
-        line("scale", &format!("{} to {}", range.low, range.high));
+        line(says, "scale", &format!("{} to {}", range.low, range.high));
     }
 }
 
@@ -323,7 +347,7 @@ fn light_facts(tally: &Tally, samples: u32) -> String {
 
 fn outcome_text(outcome: &FrameOutcome) -> String {
     match outcome {
-        FrameOutcome::Drawn(times) => {
+        FrameOutcome::Drawn { times, .. } => {
             let [build, draw] = [times.build_ms, times.draw_ms].map(decimal);
             format!("built in {build} ms, drawn in {draw} ms")
         }
@@ -331,22 +355,54 @@ fn outcome_text(outcome: &FrameOutcome) -> String {
     }
 }
 
-fn report_animation(report: &AnimationReport) {
-    line("scene", &report.scene);
-    line("method", &report.method);
-    line("drawn by", &report.computed_by);
-    line("drawn", &format!("{} frames in {}", report.frames.len(), ms(report.wall_ms)));
+/// How many frames were drawn, and what became of the others.
+fn frames_text(report: &AnimationReport) -> String {
+    let mut text = format!("{} frames in {}", report.drawn, ms(report.wall_ms));
+    let others = [
+        (report.kept.len(), "were there already"),
+        (report.broken().count(), "could not be drawn"),
+    ];
+    for (count, what) in others.into_iter().filter(|(count, _)| *count > 0) {
+        text += &format!("; {count} {what}");
+    }
+    if !report.absent.is_empty() {
+        text += &format!("; none for {}", rows_text(&report.absent));
+    }
+    text
+}
+
+/// Rows of numbers, by the first and the last of each.
+fn rows_text(rows: &[[u32; 2]]) -> String {
+    let text = |[first, last]: &[u32; 2]| match first == last {
+        true => first.to_string(),
+        false => format!("{first} to {last}"),
+    };
+    rows.iter().map(text).collect::<Vec<_>>().join(", ")
+}
+
+fn report_animation(says: Says, report: &AnimationReport) {
+    line(says, "scene", &report.scene);
+    line(says, "method", &report.method);
+    line(says, "drawn by", &report.computed_by);
+    line(says, "drawn", &frames_text(report));
+    if report.asked_again > 0 {
+        line(says, "rays", &format!("{} asked again in f64", grouped(report.asked_again as usize)));
+    }
     if let Some(median) = &report.median {
-        line("load", &ms(median.load_ms));
-        line("build", &ms(median.build_ms));
-        line("draw", &ms(median.draw_ms));
-        line("shade", &ms(median.shade_ms));
+        line(says, "load", &ms(median.load_ms));
+        line(says, "build", &ms(median.build_ms));
+        line(says, "draw", &ms(median.draw_ms));
+        line(says, "shade", &ms(median.shade_ms));
     }
     if let Some(hidden) = report.hidden {
-        line("hidden", &format!("{:.0} % of loading and building, behind drawing", 100.0 * hidden));
+        line(
+            says,
+            "hidden",
+            &format!("{:.0} % of loading and building, behind drawing", 100.0 * hidden),
+        );
     }
     if let Some(caveat) = &report.caveat {
-        line("but", caveat);
+        line(says, "but", caveat);
     }
 }
 

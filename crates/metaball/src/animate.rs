@@ -1,5 +1,6 @@
 //! The frames of a scene that moves.
 
+mod numbers;
 mod pipeline;
 mod report;
 
@@ -9,10 +10,15 @@ use std::time::Instant;
 
 use metaball_core::View;
 use particle_files::{AnimatedScene, NumberedPath};
-use picture_files::{PictureFileError, description_in_png, write_atomically, write_sheet};
+use picture_files::{
+    PictureFile, PictureFileError, RunFile, Target, description_in, ensure_sheet, ensure_writable,
+    refuse_overlap, write_atomically, write_sheet,
+};
 
+use self::numbers::Numbers;
 use self::pipeline::Job;
 pub use self::report::{AnimationReport, FrameOutcome, FrameReport, FrameTimes};
+use crate::inputs::inputs;
 use crate::{DrawOptions, Error};
 
 /// Which frames to draw, how, and where to.
@@ -24,19 +30,23 @@ pub struct AnimateOptions {
     pub frames: Option<Range<u32>>,
     /// Only every so manyth of them; 0 counts as 1.
     pub every: u32,
-    /// Where the PNGs go. The report is written next to them, named like the first but ending in `json`.
+    /// Where the pictures go, `.png`, `.jpg` or `.jpeg`. The report is written next to them, named like the
+    /// first but ending in `json`.
     pub out: NumberedPath,
-    /// Where a picture of all frames side by side goes, if anywhere. None is written where frames are
-    /// broken.
+    /// Where a picture of all frames side by side goes, if anywhere; of the same formats. None is written
+    /// where frames are broken, or were asked for and are not there.
     pub sheet: Option<PathBuf>,
     /// Draw what is there already, too.
     pub force: bool,
     /// Whether each frame is built only after the one before was drawn.
     pub in_turn: bool,
+    /// Files that are never written over: those that the scene is read from, such as
+    /// [`inputs`](crate::inputs()) finds. The image of the surroundings is one of them without being named.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl AnimateOptions {
-    /// All frames to PNGs of these names, with all defaults.
+    /// All frames to pictures of these names, with all defaults.
     pub fn new(out: NumberedPath) -> Self {
         Self {
             draw: DrawOptions::default(),
@@ -46,6 +56,7 @@ impl AnimateOptions {
             sheet: None,
             force: false,
             in_turn: false,
+            inputs: Vec::new(),
         }
     }
 }
@@ -60,7 +71,7 @@ pub enum AnimationEvent<'a> {
         missing: usize,
         /// Frames that are there already.
         kept: usize,
-        /// Numbers in the range for which the scene has no frame.
+        /// Numbers that are wanted, and for which the scene has no frame.
         absent: usize,
     },
     /// A frame is done.
@@ -69,21 +80,27 @@ pub enum AnimationEvent<'a> {
 
 /// Draws the frames that are not there yet. Returns the report, and where it is written.
 ///
-/// A frame is there if its file is a whole PNG that says it was drawn with these options. Whether the
+/// A frame is there if its file is a whole picture that says it was drawn with these options. Whether the
 /// user's particles have changed since is not looked at.
 ///
 /// A frame whose particles cannot be used does not stop the others: the report
-/// [names it](AnimationReport::broken). What the method or the adapter refuses stops the run.
+/// [names it](AnimationReport::broken). So it is with frames that
+/// [`frames`](AnimateOptions::frames) asks for and that the scene has not: the report
+/// [names them](AnimationReport::absent), as it does gaps between the first frame and the last where all are
+/// drawn. What the method or the adapter refuses stops the run.
 ///
 /// # Errors
-/// When there is no frame to draw, one cannot be drawn or a file not be written.
+/// When there is no frame to draw, one cannot be drawn, or a file cannot be written or is an input or
+/// another output. What cannot be written is refused before anything is drawn.
 pub fn animate(
     scene: &dyn AnimatedScene,
     options: &AnimateOptions,
     mut on_event: impl FnMut(AnimationEvent<'_>),
 ) -> Result<(AnimationReport, PathBuf), Error> {
     let draw = &options.draw;
-    let (numbers, absent) = numbers(scene, options)?;
+    let numbers = Numbers::of(scene, options)?;
+    let files = Files::of(options, &numbers.present);
+    files.check(options)?;
     let (width, height) = draw.size;
     // The same for all frames, whichever of them are drawn: where and how large the scene is, its first
     // one says.
@@ -106,43 +123,65 @@ pub fn animate(
     };
 
     let is_kept = |number: &u32| {
-        let found = description_in_png(&options.out.path(*number));
+        let found = description_in(&options.out.path(*number));
         !options.force && found.is_some_and(|found| found == job.description(*number))
     };
-    let (kept, missing): (Vec<u32>, Vec<u32>) = numbers.iter().partition(|number| is_kept(number));
+    let (kept, missing): (Vec<u32>, Vec<u32>) =
+        numbers.present.iter().partition(|number| is_kept(number));
+    let absent = numbers.absent_count();
     on_event(AnimationEvent::Begins { missing: missing.len(), kept: kept.len(), absent });
     let start = Instant::now();
     let frames =
         job.draw(&missing, options.in_turn, |frame| on_event(AnimationEvent::Done(frame)))?;
 
+    let whole = numbers.has_all();
+    let about = (job.scene.name(), &opened);
     let report =
-        AnimationReport::new((job.scene.name(), &opened), options, kept, frames, start.elapsed());
-    let path = options.out.path(numbers[0]).with_extension("json");
+        AnimationReport::new(about, options, (kept, numbers.absent), frames, start.elapsed());
     let json = serde_json::to_vec_pretty(&report).map_err(|source| PictureFileError::Encode {
-        what: path.display().to_string(),
+        what: files.report.display().to_string(),
         source: source.into(),
     })?;
-    write_atomically(&path, &json)?;
-    if let (Some(sheet), None) = (&options.sheet, report.broken().next()) {
-        let pictures: Vec<_> = numbers.iter().map(|number| options.out.path(*number)).collect();
-        write_sheet(sheet, &pictures)?;
+    write_atomically(&files.report, &json)?;
+    if let (Some(sheet), true, None) = (&options.sheet, whole, report.broken().next()) {
+        write_sheet(sheet, &files.frames)?;
     }
-    Ok((report, path))
+    Ok((report, files.report))
 }
 
-/// The frames to draw, those of the range that there are, at least one; and how many there are not.
-fn numbers(
-    scene: &dyn AnimatedScene,
-    options: &AnimateOptions,
-) -> Result<(Vec<u32>, usize), Error> {
-    let range = options.frames.clone().unwrap_or(scene.frames());
-    let present = scene.present(range.clone()).map_err(Error::Frames)?;
-    if present.is_empty() {
-        let (scene, frames) = (scene.name().to_owned(), scene.frames());
-        return Err(Error::NoFrames { scene, range, frames });
+/// The files of a run but for the sheet.
+struct Files {
+    frames: Vec<PathBuf>,
+    report: PathBuf,
+}
+
+impl Files {
+    /// Of frames with these numbers, at least one.
+    fn of(options: &AnimateOptions, numbers: &[u32]) -> Self {
+        let frames: Vec<_> = numbers.iter().map(|number| options.out.path(*number)).collect();
+        Self { report: frames[0].with_extension("json"), frames }
     }
-    let absent = range.len().saturating_sub(present.len());
-    Ok((present.into_iter().step_by(options.every.max(1) as usize).collect(), absent))
+
+    /// Refuses what cannot be written.
+    fn check(&self, options: &AnimateOptions) -> Result<(), Error> {
+        let AnimateOptions { draw, sheet, .. } = options;
+        let (width, height) = draw.size;
+        let frames = self.frames.iter().map(|path| ("frame", path));
+        let others =
+            [("report", &self.report)].into_iter().chain(sheet.iter().map(|path| ("sheet", path)));
+        let outputs: Vec<RunFile> =
+            frames.chain(others).map(|(what, path)| (what, path.clone())).collect();
+        refuse_overlap(&outputs, &inputs(&options.inputs, &draw.light))?;
+        drop(PictureFile::create(&self.frames[0], width, height)?);
+        for path in &self.frames {
+            Target::of(path)?;
+        }
+        ensure_writable(&self.report)?;
+        if let Some(sheet) = sheet {
+            ensure_sheet(sheet, self.frames.len(), draw.size)?;
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]
@@ -274,8 +313,85 @@ mod tests {
         let report = fs::read_to_string(folder.join("f-00.json")).expect("written");
         assert!(report.contains("p1.csv, line 2"), "{report}");
 
+        assert!(report.contains("\"drawn\": 3"), "{report}");
+
         let beyond = AnimateOptions { frames: Some(7..9), ..options };
         let error = animate(&files, &beyond, |_| ()).expect_err("there are none").to_string();
         assert!(error.starts_with("frames 7..9: needed some of"), "{error}");
+    }
+    /// Frames 1, 2 and 5 of a ball that moves.
+    fn gappy(folder: &Path) -> Sequence {
+        for number in [1, 2, 5] {
+            let table = format!("x,y,z,radius\n{number},0,0,1\n");
+            fs::write(folder.join(format!("p{number}.csv")), table).expect("written");
+        }
+        Sequence::open(folder.join("p%d.csv"), &Overrides::default()).expect("there")
+    }
+
+    #[test]
+    fn frames_that_are_not_there_are_named() {
+        let folder = folder();
+        let files = gappy(folder.path());
+        let sheet = folder.path().join("s.png");
+        let options =
+            AnimateOptions { sheet: Some(sheet.clone()), ..options(Backend::Cpu, folder.path()) };
+        let all = |range| run(&files, &AnimateOptions { frames: range, ..options.clone() });
+        let asked = all(Some(1..9));
+        assert_eq!(asked.absent, [[3, 4], [6, 8]]);
+        assert_eq!((asked.drawn, asked.frames.len()), (3, 3));
+        assert!(!sheet.exists());
+        let gaps = all(None);
+        assert_eq!((gaps.absent, gaps.kept), (vec![[3, 4]], vec![1, 2, 5]));
+        assert!(sheet.is_file());
+        assert_eq!(all(Some(1..3)).absent, Vec::<[u32; 2]>::new());
+    }
+
+    #[test]
+    fn no_output_is_an_input_or_another_output() {
+        let folder = folder();
+        let files = gappy(folder.path());
+        let options = AnimateOptions { frames: None, ..options(Backend::Cpu, folder.path()) };
+        let refused = |options: AnimateOptions| {
+            let drawn = animate(&files, &options, |_| panic!("drawn"));
+            drawn.expect_err("refused").to_string()
+        };
+        let at = |name: &str| folder.path().join(name);
+        let numbered = |name: &str| at(name).display().to_string().parse().expect("numbered");
+        let over = AnimateOptions {
+            out: numbered("p%d.csv"),
+            inputs: vec![at("p2.csv")],
+            ..options.clone()
+        };
+        let error = refused(over);
+        assert!(error.contains("of its own for the frame, found the scene"), "{error}");
+        let sheet = AnimateOptions { sheet: Some(at("f-02.png")), ..options.clone() };
+        let error = refused(sheet);
+        assert!(error.contains("of its own for the sheet, found the frame"), "{error}");
+        let report = AnimateOptions { inputs: vec![at("f-01.json")], ..options.clone() };
+        let error = refused(report);
+        assert!(error.contains("of its own for the report, found the scene"), "{error}");
+        let gif = AnimateOptions { out: numbered("f-%d.gif"), ..options.clone() };
+        assert!(refused(gif).ends_with("found .gif"));
+        let gif = AnimateOptions { sheet: Some(at("s.gif")), ..options.clone() };
+        assert!(refused(gif).ends_with("found .gif"));
+        fs::create_dir(at("f-05.png")).expect("made");
+        assert!(refused(options).ends_with("found a folder"));
+        assert!(!at("f-01.png").exists() && !at("f-01.json").exists());
+    }
+
+    #[test]
+    fn frames_may_be_jpegs() {
+        let folder = folder();
+        let files = gappy(folder.path());
+        let out = folder.path().join("f-%d.jpg").display().to_string().parse().expect("numbered");
+        let sheet = Some(folder.path().join("s.jpeg"));
+        let options =
+            AnimateOptions { frames: None, out, sheet, ..options(Backend::Cpu, folder.path()) };
+        assert_eq!(run(&files, &options).drawn, 3);
+        assert_eq!(run(&files, &options).kept, [1, 2, 5]);
+        for name in ["f-1.jpg", "s.jpeg"] {
+            let bytes = fs::read(folder.path().join(name)).expect("written");
+            assert!(bytes.starts_with(&[0xff, 0xd8, 0xff]), "{name}");
+        }
     }
 }

@@ -8,7 +8,7 @@ use metaball_core::gpu::{self, Gpu, IsoRenderer, RenderError, Shading, Targets};
 use metaball_core::shade::CpuPicture;
 use metaball_core::{Camera, Clip, Hit, Image, Picture, Scene, ValueRange, View};
 use metaball_light::Film;
-use picture_files::{write_hits, write_light, write_png};
+use picture_files::{write_hits, write_light, write_picture};
 
 use crate::backend::Opened;
 use crate::band::{Band, bands};
@@ -72,19 +72,19 @@ impl Drawing {
         self.hits.iter().filter(|hit| hit.is_hit()).count()
     }
 
-    /// Writes the picture as PNG.
+    /// Writes the picture as PNG or JPEG, as the ending says: see [`picture_files::PictureFile`].
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// When the ending is another, or the file cannot be written.
     pub fn save_image(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        Ok(write_png(path.as_ref(), &self.image)?)
+        Ok(write_picture(path.as_ref(), &self.image)?)
     }
 
     /// Writes distances (`Z`, along the unit primary ray) and normals (`N.X`, `N.Y`, `N.Z`) as f32
-    /// channels of an OpenEXR file: see [`picture_files::HitsFile`].
+    /// channels of an OpenEXR file, or as a NumPy array: see [`picture_files::HitsFile`].
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// When the ending is another, or the file cannot be written.
     pub fn save_hits(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let Image { width, height, .. } = self.image;
         Ok(write_hits(path.as_ref(), width, height, &self.hits)?)
@@ -93,7 +93,7 @@ impl Drawing {
     /// Writes the linear light as an OpenEXR file.
     ///
     /// # Errors
-    /// When there is no ray traced light, or the file cannot be written.
+    /// When there is no ray traced light, the ending is not `.exr`, or the file cannot be written.
     pub fn save_light(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let film = self.film.as_ref().ok_or_else(no_light)?;
         Ok(write_light(path.as_ref(), film.width, film.height, &film.light)?)

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 use metaball_core::{Camera, Color, Hit, Scene, ValueRange, View};
-use picture_files::{HitsFile, LightFile, PngFile};
+use picture_files::{HitsFile, LightFile, PictureFile, RunFile, refuse_overlap};
 
 use crate::band::{Planes, bands};
 use crate::cpu::{Built, Finisher, Painter};
 use crate::draw::{Attempt, no_light, on_adapter};
+use crate::inputs::inputs;
 use crate::spool::{Description, Spool};
 use crate::summary::{Progress, Stage, Summary, Tally, asked};
 use crate::{DrawOptions, Drawing, Error};
@@ -17,7 +18,7 @@ use crate::{DrawOptions, Drawing, Error};
 /// Where a picture goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outputs {
-    /// The picture: PNG.
+    /// The picture: a [`PictureFile`], `.png`, `.jpg` or `.jpeg`.
     pub image: PathBuf,
     /// Distances and normals: a [`HitsFile`], `.exr` or `.npy`.
     pub hits: Option<PathBuf>,
@@ -25,21 +26,31 @@ pub struct Outputs {
     pub light: Option<PathBuf>,
     /// Go on with the bands that an interrupted run left beside the image, if there are any.
     pub resume: bool,
+    /// Files that are never written over: those that the scene is read from, such as
+    /// [`inputs`](crate::inputs()) finds. The image of the surroundings is one of them without being named.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Outputs {
     /// A picture alone, drawn from its first row on.
     pub fn image(path: impl Into<PathBuf>) -> Self {
-        Self { image: path.into(), hits: None, light: None, resume: false }
+        Self { image: path.into(), hits: None, light: None, resume: false, inputs: Vec::new() }
+    }
+
+    fn files(&self) -> Vec<RunFile> {
+        let others = [("file of hits", &self.hits), ("file of light", &self.light)];
+        let others = others.into_iter().filter_map(|(what, path)| Some((what, path.clone()?)));
+        [("picture", self.image.clone())].into_iter().chain(others).collect()
     }
 }
 
 /// Draws a scene to files. `camera` is the scene's own.
 ///
 /// On the CPU a picture is drawn band by band, and each band that is finished is kept in a spool beside the
-/// image, named like it with `.spool` behind: 4 bytes a pixel, 20 more for hits and 12 more for light. When
+/// image, named like it with `.spool` behind: 4 bytes a pixel, 20 more for hits and 12 more for light. Where
+/// the image is no regular file the spool has no name. When
 /// all are finished, the files are written from it, and it is deleted. So a picture takes no more memory than
-/// a band of it, 4 bytes a pixel of an eighth of it with a depth cue; and one that was interrupted can be
+/// a band of it, 4 bytes a pixel of an eighth of it with a depth cue, 3 bytes a pixel of all of it as JPEG; and one that was interrupted can be
 /// [resumed](Outputs::resume), and has the same bytes in the end. Finished bands of this very picture are never
 /// thrown away unasked, those of another are.
 ///
@@ -50,8 +61,9 @@ impl Outputs {
 /// of what an interrupted run did.
 ///
 /// # Errors
-/// When an option cannot be used, method or adapter cannot draw the scene, a file cannot be written, there
-/// is a spool that does not fit, or the callback breaks off.
+/// When an option cannot be used, method or adapter cannot draw the scene, a file cannot be written or is
+/// an input or another output, there is a spool that does not fit, or the callback breaks off. What cannot
+/// be written is refused before anything is drawn.
 pub fn draw_to_files(
     scene: &Scene,
     camera: &Camera,
@@ -63,9 +75,9 @@ pub fn draw_to_files(
         return Err(no_light());
     }
     let view = options.view(scene, camera)?;
-    // What cannot be written is refused before anything is drawn.
+    refuse_overlap(&outputs.files(), &inputs(&outputs.inputs, &options.light))?;
     drop(Files::create(outputs, &view)?);
-    let computed_by = if outputs.resume && Spool::path_beside(&outputs.image).exists() {
+    let computed_by = if outputs.resume && Spool::is_beside(&outputs.image)? {
         "the CPU, which began the picture".to_owned()
     } else {
         match on_adapter(&options.open()?, options, scene, &view, &mut progress)? {
@@ -112,8 +124,7 @@ impl Job<'_> {
         let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref())?;
         let planes = painter.planes(outputs.hits.is_some(), outputs.light.is_some());
         let description = Description::new(scene, view, options, planes);
-        let path = Spool::path_beside(&outputs.image);
-        let mut spool = Spool::open(path, view, planes, &description, outputs.resume)?;
+        let mut spool = Spool::open(&outputs.image, view, planes, &description, outputs.resume)?;
         self.draw_rest(&mut spool, &painter, planes, &mut progress)?;
         let range = (!planes.pixels).then(|| range_of(&spool)).transpose()?;
         let mut finisher = range.map(|range| painter.finisher(range));
@@ -190,7 +201,7 @@ fn range_of(spool: &Spool) -> Result<ValueRange, Error> {
 
 /// The files of a picture on their way to the disk.
 struct Files {
-    image: PngFile,
+    image: PictureFile,
     hits: Option<HitsFile>,
     light: Option<LightFile>,
 }
@@ -201,7 +212,7 @@ impl Files {
         let hits = outputs.hits.as_ref().map(|path| HitsFile::create(path, width, height));
         let light = outputs.light.as_ref().map(|path| LightFile::create(path, width, height));
         Ok(Self {
-            image: PngFile::create(&outputs.image, width, height)?,
+            image: PictureFile::create(&outputs.image, width, height)?,
             hits: hits.transpose()?,
             light: light.transpose()?,
         })
@@ -393,6 +404,74 @@ mod tests {
         assert!(refused(&hits).ends_with("found .txt"));
         let light = Outputs { light: Some(folder.path().join("light.exr")), ..outputs };
         assert!(refused(&light).starts_with("light: needed"));
+        let picture = Outputs::image(folder.path().join("image.gif"));
+        assert!(refused(&picture).ends_with("needed a picture, .png, .jpg or .jpeg, found .gif"));
+        let taken = folder.path().join("taken.png");
+        fs::create_dir(&taken).expect("made");
+        let into = refused(&Outputs::image(&taken));
+        assert!(into.ends_with("needed the path of a file, found a folder"), "{into}");
+        fs::remove_dir(&taken).expect("it is empty");
         assert_eq!(files(folder.path()), []);
+    }
+
+    #[test]
+    fn no_output_is_an_input_or_another_output() {
+        let bench = bench("colors-100");
+        let folder = tempfile::tempdir().expect("a folder");
+        let [png, exr] = ["a.png", "a.exr"].map(|name| folder.path().join(name));
+        for path in [&png, &exr] {
+            fs::write(path, "mine").expect("written");
+        }
+        let shadows = LightOptions { shadows: true, ..LightOptions::default() };
+        let in_sky = LightOptions { environment: Some(exr.clone()), ..shadows.clone() };
+        let refused = |outputs: Outputs, light: &LightOptions| {
+            let options = lit(light.clone());
+            let drawn =
+                draw_to_files(&bench.scene, &bench.camera, &options, &outputs, |_| panic!("drawn"));
+            drawn.expect_err("refused").to_string()
+        };
+        let outputs = Outputs::image(folder.path().join("b.png"));
+        let scene = Outputs { image: png.clone(), inputs: vec![png.clone()], ..outputs.clone() };
+        assert!(
+            refused(scene, &shadows).contains("a file of its own for the picture, found the scene")
+        );
+        let sky = Outputs { light: Some(exr.clone()), ..outputs.clone() };
+        assert!(refused(sky, &in_sky).contains("for the file of light, found the environment"));
+        let twice = Outputs { hits: Some(exr.clone()), light: Some(exr.clone()), ..outputs };
+        assert!(refused(twice, &shadows).contains("for the file of light, found the file of hits"));
+        for path in [&png, &exr] {
+            assert_eq!(fs::read(path).expect("there"), b"mine");
+        }
+        assert_eq!(files(folder.path()).len(), 2);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn links_stay_and_devices_are_written_to() {
+        use std::os::unix::fs::symlink;
+
+        let bench = bench("colors-100");
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("real")).expect("made");
+        let options = options(Picture::Phong);
+        let draw = |outputs: &Outputs| {
+            let all = |_| ControlFlow::Continue(());
+            draw_to_files(&bench.scene, &bench.camera, &options, outputs, all)
+        };
+        let link = folder.path().join("link.png");
+        symlink("real/image.png", &link).expect("linked");
+        let outputs = Outputs::image(&link);
+        draw_until(&bench, &options, &outputs, (Stage::Drawing, 32)).expect_err("broken off");
+        let real = folder.path().join("real");
+        assert_eq!(files(&real)[0].0, "image.png.spool", "beside the file itself");
+        draw(&Outputs { resume: true, ..outputs }).expect("drawn");
+        assert!(link.is_symlink());
+        assert!(matches!(&files(&real)[..], [(name, _)] if name == "image.png"));
+
+        let null = Outputs::image("/dev/null");
+        draw(&null).expect("drawn");
+        assert!(!Path::new("/dev/null").is_file() && !Path::new("/dev/null.spool").exists());
+        let error = draw(&Outputs { resume: true, ..null }).expect_err("nothing to resume");
+        assert!(error.to_string().starts_with("resume: needed"), "{error}");
     }
 }

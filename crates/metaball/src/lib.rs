@@ -41,6 +41,7 @@ mod cpu_alone;
 mod draw;
 mod error;
 mod files;
+mod inputs;
 mod light;
 mod method;
 mod spool;
@@ -63,7 +64,7 @@ pub use metaball_core::{
 pub use method::Choosing;
 pub use method::Method;
 pub use particle_files::{
-    AnimatedScene, BoxError, Loaded, NumberedPath, Overrides, Sequence, load,
+    AnimatedScene, BoxError, Loaded, NumberedPath, Overrides, Sequence, inputs, load,
 };
 pub use summary::{Progress, Stage, Summary, Tally};
 pub use viewpoint::Viewpoint;

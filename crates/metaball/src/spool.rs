@@ -13,7 +13,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use metaball_core::View;
-use picture_files::PictureFileError;
+use picture_files::{PictureFileError, Target};
 
 pub(crate) use self::description::Description;
 use crate::Error;
@@ -25,7 +25,9 @@ const MAGIC: &[u8; 16] = b"metaball spool 1";
 /// A file of finished bands, locked for as long as it is open.
 #[derive(Debug)]
 pub(crate) struct Spool {
+    /// Its name; where it has none, the folder that it is in.
     path: PathBuf,
+    is_named: bool,
     file: File,
     size: (u32, u32),
     planes: Planes,
@@ -38,11 +40,22 @@ pub(crate) struct Spool {
 }
 
 impl Spool {
-    /// The spool of a picture: `picture.png.spool` beside `picture.png`.
-    pub(crate) fn path_beside(picture: &Path) -> PathBuf {
-        let mut path = picture.as_os_str().to_owned();
-        path.push(".spool");
-        path.into()
+    /// The spool of a picture: `picture.png.spool` beside `picture.png`, behind all links; none where the
+    /// picture is no regular file.
+    fn path_beside(picture: &Path) -> Result<Option<PathBuf>, PictureFileError> {
+        Ok(match Target::of(picture)? {
+            Target::File(path) => {
+                let mut path = path.into_os_string();
+                path.push(".spool");
+                Some(path.into())
+            }
+            Target::Stream(_) => None,
+        })
+    }
+
+    /// Whether there is a spool of a picture.
+    pub(crate) fn is_beside(picture: &Path) -> Result<bool, Error> {
+        Ok(Self::path_beside(picture)?.is_some_and(|path| path.exists()))
     }
 
     /// Opens the spool of a view's picture: where `resume` asks for it with the bands that an interrupted
@@ -50,15 +63,34 @@ impl Spool {
     ///
     /// # Errors
     /// When another run has it open; when it holds bands of another picture and `resume` asks for those of
-    /// this one; when it holds bands of this very picture and `resume` does not ask for them; when it is no
-    /// spool, or cannot be read or written.
+    /// this one; when it holds bands of this very picture and `resume` does not ask for them; when `resume`
+    /// asks where none are kept; when it is no spool, or cannot be read or written.
     pub(crate) fn open(
-        path: PathBuf,
+        picture: &Path,
         view: &View,
         planes: Planes,
         description: &Description,
         resume: bool,
     ) -> Result<Self, Error> {
+        let size = (view.width(), view.height());
+        let spool = |path, is_named, file| Self {
+            path,
+            is_named,
+            file,
+            size,
+            planes,
+            start: 0,
+            end: 0,
+            rows: 0,
+        };
+        let Some(path) = Self::path_beside(picture)? else {
+            if resume {
+                return Err(nothing_kept(picture));
+            }
+            let folder = std::env::temp_dir();
+            let file = tempfile::tempfile_in(&folder).map_err(io_error("write", &folder))?;
+            return spool(folder, false, file).begun(description);
+        };
         let file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
         let file = file.map_err(io_error("open", &path))?;
@@ -66,8 +98,7 @@ impl Spool {
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(Error::SpoolInUse { path });
         }
-        let size = (view.width(), view.height());
-        let mut spool = Self { path, file, size, planes, start: 0, end: 0, rows: 0 };
+        let mut spool = spool(path, true, file);
         let Some(found) = spool.description()? else { return spool.begun(description) };
         let Some([what, needed, found]) = description.difference(&found) else {
             spool.recover()?;
@@ -113,8 +144,11 @@ impl Spool {
 
     /// Deletes the file: the picture is complete.
     pub(crate) fn remove(self) -> Result<(), Error> {
-        let Self { path, file, .. } = self;
+        let Self { path, is_named, file, .. } = self;
         drop(file);
+        if !is_named {
+            return Ok(());
+        }
         Ok(fs::remove_file(&path).map_err(io_error("remove", &path))?)
     }
 
@@ -170,6 +204,15 @@ impl Spool {
     fn read(&self, at: u64) -> io::Result<(Band, u64)> {
         (&self.file).seek(SeekFrom::Start(at))?;
         record::read(&self.file, self.size, self.planes)
+    }
+}
+
+/// Why a picture that is no regular file cannot be resumed.
+fn nothing_kept(picture: &Path) -> Error {
+    Error::Option {
+        option: "resume",
+        needed: "a picture that is a file, beside which its rows are kept".to_owned(),
+        found: picture.display().to_string(),
     }
 }
 

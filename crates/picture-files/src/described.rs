@@ -1,34 +1,39 @@
-//! PNGs that say what they show: so a run that is resumed knows which frames are its own, and whole.
+//! Pictures that say what they show: so a run that is resumed knows which frames are its own, and whole.
 
-use std::fs::File;
-use std::io::BufReader;
+mod jpeg;
+mod png;
+
 use std::path::Path;
 
-use ::png::Decoder;
 use metaball_core::Image;
 
-use crate::PictureFileError;
-use crate::png::encode_png_with;
+use crate::picture::PictureFormat;
+use crate::{PictureFileError, write_atomically};
 
-/// Keyword of the text.
-const KEYWORD: &str = "Description";
-
-/// Encodes an image, eight bits a channel, with a text that [`description_in_png`] finds.
+/// Writes an image, as [`write_picture`](crate::write_picture) does, with a text that
+/// [`description_in`] finds: in a PNG as the text `Description`, in a JPEG as its comment.
 ///
 /// # Errors
-/// When the image's size and its bytes do not agree.
-pub fn encode_described_png(image: &Image, description: &str) -> Result<Vec<u8>, PictureFileError> {
-    encode_png_with(image, |png| png.add_itxt_chunk(KEYWORD.to_owned(), description.to_owned()))
+/// When the image's size and its bytes do not agree, the ending is another, or the file cannot be
+/// written.
+pub fn write_described(path: &Path, image: &Image, text: &str) -> Result<(), PictureFileError> {
+    let bytes = match PictureFormat::of_size(path, image.width, image.height)? {
+        PictureFormat::Png => png::encode(image, text)?,
+        PictureFormat::Jpeg => jpeg::encode(image, text)?,
+    };
+    write_atomically(path, &bytes)
 }
 
-/// The text in a file; `None` where there is no file, no whole PNG, or no text.
-pub fn description_in_png(path: &Path) -> Option<String> {
-    let mut reader = Decoder::new(BufReader::new(File::open(path).ok()?)).read_info().ok()?;
-    let mut pixels = vec![0; reader.output_buffer_size()?];
-    reader.next_frame(&mut pixels).ok()?;
-    reader.finish().ok()?;
-    let texts = &reader.info().utf8_text;
-    texts.iter().find(|text| text.keyword == KEYWORD)?.get_text().ok()
+/// The text in a file; `None` where there is no file, no whole picture of the format that its ending
+/// names, or no text.
+pub fn description_in(path: &Path) -> Option<String> {
+    if !path.is_file() {
+        return None;
+    }
+    match PictureFormat::of(path).ok()? {
+        PictureFormat::Png => png::text_in(path),
+        PictureFormat::Jpeg => jpeg::text_in(path),
+    }
 }
 
 #[cfg(test)]
@@ -37,27 +42,60 @@ mod tests {
 
     use super::*;
 
+    fn image() -> Image {
+        let rgba = (0..20 * 20).flat_map(|index| [(index * 37 % 251) as u8, 7, 200, 255]).collect();
+        Image { width: 20, height: 20, rgba }
+    }
+
     #[test]
     fn only_whole_frames_say_what_they_show() {
         let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("frame.png");
-        assert_eq!(description_in_png(&path), None);
+        let image = image();
+        for name in ["frame.png", "frame.jpg"] {
+            let path = folder.path().join(name);
+            assert_eq!(description_in(&path), None);
+            write_described(&path, &image, "frame 1 of Pfütze").expect("written");
+            assert_eq!(description_in(&path).as_deref(), Some("frame 1 of Pfütze"));
 
-        let rgba: Vec<u8> = (0..4 * 20 * 20).map(|index| (index * 37 % 251) as u8).collect();
-        let image = Image { width: 20, height: 20, rgba };
-        let bytes = encode_described_png(&image, "frame 1 of Pfütze").expect("encoded");
-        fs::write(&path, &bytes).expect("written");
-        assert_eq!(description_in_png(&path).as_deref(), Some("frame 1 of Pfütze"));
-        let back = image::load_from_memory(&bytes).expect("a PNG").into_rgba8();
-        assert_eq!(back.into_raw(), image.rgba);
-
-        for length in [0, 50, bytes.len() / 2, bytes.len() - 13] {
-            fs::write(&path, &bytes[..length]).expect("written");
-            assert_eq!(description_in_png(&path), None, "{length} of {} bytes", bytes.len());
+            let bytes = fs::read(&path).expect("readable");
+            for length in [0, 3, 50, bytes.len() / 2, bytes.len() - 13, bytes.len() - 1] {
+                fs::write(&path, &bytes[..length]).expect("written");
+                assert_eq!(description_in(&path), None, "{length} of {} bytes", bytes.len());
+            }
+            crate::write_picture(&path, &image).expect("written");
+            assert_eq!(description_in(&path), None);
+            assert!(write_described(&path, &Image { width: 21, ..image.clone() }, "").is_err());
         }
-        let plain = crate::encode_png(&image).expect("encoded");
-        fs::write(&path, plain).expect("written");
-        assert_eq!(description_in_png(&path), None);
-        assert!(encode_described_png(&Image { width: 21, ..image }, "").is_err());
+    }
+
+    #[test]
+    fn a_text_changes_no_pixel() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let image = image();
+        for name in ["frame.png", "frame.jpg"] {
+            let path = folder.path().join(name);
+            let pixels = || image::open(&path).expect("a picture").into_rgba8().into_raw();
+            crate::write_picture(&path, &image).expect("written");
+            let plain = pixels();
+            let long = "Pfütze ".repeat(20_000);
+            write_described(&path, &image, &long).expect("written");
+            assert_eq!(description_in(&path), Some(long));
+            assert!(pixels() == plain, "{name}");
+        }
+    }
+
+    /// Bytes that look like segments do no harm.
+    #[test]
+    fn no_jpeg_panics() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("frame.jpg");
+        write_described(&path, &image(), "a text").expect("written");
+        let bytes = fs::read(&path).expect("readable");
+        for at in 0..bytes.len().min(700) {
+            let mut mutated = bytes.clone();
+            mutated[at] = mutated[at].wrapping_add(1 + (at % 255) as u8);
+            fs::write(&path, &mutated).expect("written");
+            let _ = description_in(&path);
+        }
     }
 }

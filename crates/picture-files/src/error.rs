@@ -25,6 +25,22 @@ pub enum PictureFileError {
         /// The system's reason.
         source: io::Error,
     },
+    /// An output is another file of the same run.
+    #[error(
+        "{}: needed a file of its own for the {what}, found the {other} {}; give another name",
+        path.display(),
+        other_path.display()
+    )]
+    Taken {
+        /// The output.
+        path: PathBuf,
+        /// What it is to be.
+        what: &'static str,
+        /// What it is already.
+        other: &'static str,
+        /// How that is named.
+        other_path: PathBuf,
+    },
     /// What was to be written has another size or number than it needs.
     #[error("{what}: needed {needed}, found {found}")]
     Size {

@@ -11,6 +11,7 @@ use metaball_core::{Hit, Verdict};
 use self::exr::ExrHits;
 use self::npy::NpyHits;
 use crate::PictureFileError;
+use crate::ending::named_format;
 
 /// What such a file holds of a picture.
 const WHAT: &str = "hits";
@@ -37,17 +38,11 @@ enum Format {
 
 impl Format {
     fn of(path: &Path) -> Result<Self, PictureFileError> {
-        let ending =
-            path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
-        match ending.as_deref() {
-            Some("exr") => Ok(Self::Exr),
-            Some("npy") => Ok(Self::Npy),
-            _ => Err(PictureFileError::Content {
-                path: path.to_owned(),
-                needed: "a file of hits, .exr or .npy",
-                found: ending.map_or_else(|| "no ending".to_owned(), |ending| format!(".{ending}")),
-            }),
-        }
+        named_format(
+            path,
+            &[("exr", Self::Exr), ("npy", Self::Npy)],
+            "a file of hits, .exr or .npy",
+        )
     }
 }
 
@@ -55,7 +50,8 @@ impl Format {
 /// scene units, +∞ for a miss, 0 where the ray starts inside; `N.X`, `N.Y`, `N.Z` are the unit outward
 /// normal, zero for a miss. Where a method could not tell, Z is NaN and the normal zero.
 ///
-/// `.exr` has them as channels, `.npy` as an array of height × width × 4.
+/// `.exr` has them as channels, `.npy` as an array of height × width × 4. What is no regular file and has
+/// no ending gets OpenEXR.
 ///
 /// They come in parts, row by row from the top left, and the part written last and sixteen rows are all
 /// of them that is held. [`finish`](Self::finish) moves the file to its place; dropped before, it is

@@ -2,15 +2,18 @@
 //!
 //! | what | format | |
 //! | --- | --- | --- |
-//! | a picture | PNG, eight bits a channel, sRGB | [`PngFile`], [`write_png`], [`encode_png`] |
-//! | a picture that says what it shows | the same with a text | [`encode_described_png`], [`description_in_png`] |
-//! | pictures side by side | PNG | [`write_sheet`] |
+//! | a picture | PNG or JPEG, eight bits a channel, sRGB | [`PictureFile`], [`write_picture`], [`encode_png`] |
+//! | a picture that says what it shows | the same with a text | [`write_described`], [`description_in`] |
+//! | pictures side by side | PNG or JPEG | [`write_sheet`] |
 //! | hits: distance and normal | OpenEXR or NumPy | [`HitsFile`], [`write_hits`], [`read_hits`] |
 //! | linear light | OpenEXR; Radiance HDR is read too | [`LightFile`], [`write_light`], [`read_light`] |
 //!
+//! The ending of a path says which; another one than these is refused.
+//!
 //! All of them reach the disk under another name, and are moved when they are whole, as
-//! [`write_atomically`] does. A [`PngFile`], a [`HitsFile`] and a [`LightFile`] are written row by row, so
-//! that a picture need not fit the memory.
+//! [`write_atomically`] does: through symbolic links, and into what is no regular file ([`Target`]). A
+//! [`PictureFile`] of PNG, a [`HitsFile`] and a [`LightFile`] are written row by row, so that a picture need
+//! not fit the memory. [`refuse_overlap`] is asked before: no output is an input.
 //!
 //! ```
 //! use metaball_core::Hit;
@@ -23,20 +26,28 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod described_png;
+mod described;
 mod draft;
+mod ending;
 mod error;
 mod hits;
+mod jpeg;
 mod light;
+mod overlap;
+mod picture;
 mod pixel_count;
 mod png;
 mod scan_lines;
 mod sheet;
+mod target;
 
-pub use described_png::{description_in_png, encode_described_png};
-pub use draft::write_atomically;
+pub use described::{description_in, write_described};
+pub use draft::{ensure_writable, write_atomically};
 pub use error::PictureFileError;
 pub use hits::{HitImage, HitsFile, read_hits, write_hits};
 pub use light::{LightFile, LightImage, read_light, write_light};
-pub use png::{PngFile, encode_png, write_png};
-pub use sheet::write_sheet;
+pub use overlap::{RunFile, refuse_overlap};
+pub use picture::{PictureFile, write_picture};
+pub use png::encode_png;
+pub use sheet::{ensure_sheet, write_sheet};
+pub use target::Target;

@@ -6,6 +6,7 @@ use glam::Vec3;
 use image::{DynamicImage, ImageReader};
 
 use crate::PictureFileError;
+use crate::ending::named_format;
 use crate::scan_lines::ScanLines;
 
 /// An image of linear light, red, green and blue, not limited to 1.
@@ -30,8 +31,9 @@ impl LightFile {
     /// A file of this size.
     ///
     /// # Errors
-    /// When the file cannot be made.
+    /// When its ending is not `.exr`, or the file cannot be made.
     pub fn create(path: &Path, width: u32, height: u32) -> Result<Self, PictureFileError> {
+        named_format(path, &[("exr", ())], "a file of light, .exr")?;
         ScanLines::create(path, "light", (width, height), ["B", "G", "R"]).map(Self)
     }
 
@@ -104,6 +106,10 @@ mod tests {
         assert_eq!(back, LightImage { width: 2, height: 1, light: light.clone() });
         let error = write_light(&path, 2, 2, &light).expect_err("refused").to_string();
         assert_eq!(error, "light: needed 2 × 2 pixels, found 2");
+        let other = folder.path().join("light.hdr");
+        let error = write_light(&other, 2, 1, &light).expect_err("refused").to_string();
+        assert!(error.ends_with("needed a file of light, .exr, found .hdr"), "{error}");
+        assert!(!other.exists());
     }
 
     #[test]

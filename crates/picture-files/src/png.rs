@@ -7,17 +7,15 @@ use std::path::Path;
 use ::png::{
     BitDepth, ColorType, Compression, Encoder, EncodingError, Filter, StreamWriter, Writer,
 };
-use metaball_core::{Color, Image};
+use metaball_core::Image;
 
 use crate::PictureFileError;
 use crate::draft::Draft;
 use crate::pixel_count::PixelCount;
 
-/// A PNG on its way to the disk: eight bits a channel, sRGB.
-///
-/// Its pixels come in parts, row by row from the top left, and the part written last is all of them that
-/// is held. [`finish`](Self::finish) moves the file to its place; dropped before, it is removed.
-pub struct PngFile {
+/// A PNG on its way to the disk: eight bits a channel, sRGB. Its pixels come in parts, and the part written
+/// last is all of them that is held.
+pub(crate) struct PngFile {
     draft: Draft,
     pixels: StreamWriter<'static, File>,
     count: PixelCount,
@@ -28,7 +26,7 @@ impl PngFile {
     ///
     /// # Errors
     /// When the file cannot be made, or the size is none.
-    pub fn create(path: &Path, width: u32, height: u32) -> Result<Self, PictureFileError> {
+    pub(crate) fn create(path: &Path, width: u32, height: u32) -> Result<Self, PictureFileError> {
         let draft = Draft::create(path)?;
         let file = draft.file().map_err(draft.error())?;
         let begun = encoder(file, width, height).write_header();
@@ -36,25 +34,14 @@ impl PngFile {
         Ok(Self { draft, pixels, count: PixelCount::new("picture", width, height) })
     }
 
-    /// Writes the next pixels, any number of them.
-    ///
-    /// # Errors
-    /// When they are more than are left, or cannot be written.
-    pub fn write(&mut self, pixels: &[Color]) -> Result<(), PictureFileError> {
-        self.write_bytes(bytemuck::cast_slice(pixels))
-    }
-
-    /// Four bytes a pixel.
-    fn write_bytes(&mut self, rgba: &[u8]) -> Result<(), PictureFileError> {
+    /// Writes the next pixels, four bytes each.
+    pub(crate) fn write_bytes(&mut self, rgba: &[u8]) -> Result<(), PictureFileError> {
         self.count.add(rgba.len() / 4)?;
         self.pixels.write_all(rgba).map_err(self.draft.error())
     }
 
     /// Moves the file to its place.
-    ///
-    /// # Errors
-    /// When pixels are missing, or the file cannot be written.
-    pub fn finish(self) -> Result<(), PictureFileError> {
+    pub(crate) fn finish(self) -> Result<(), PictureFileError> {
         self.count.finish()?;
         self.pixels.finish().map_err(refused())?;
         self.draft.keep()
@@ -65,16 +52,6 @@ impl std::fmt::Debug for PngFile {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.debug_struct("PngFile").field("draft", &self.draft).finish_non_exhaustive()
     }
-}
-
-/// Writes an image as PNG.
-///
-/// # Errors
-/// When the image's size and its bytes do not agree, or the file cannot be written.
-pub fn write_png(path: &Path, image: &Image) -> Result<(), PictureFileError> {
-    let mut file = PngFile::create(path, image.width, image.height)?;
-    file.write_bytes(&image.rgba)?;
-    file.finish()
 }
 
 /// Encodes an image as PNG: eight bits a channel, sRGB.
@@ -124,7 +101,10 @@ fn refused() -> impl FnOnce(EncodingError) -> PictureFileError {
 mod tests {
     use std::fs;
 
+    use metaball_core::Color;
+
     use super::*;
+    use crate::{PictureFile, write_picture};
 
     fn pixels(count: u8) -> Vec<Color> {
         (0..count).map(|index| Color::srgb(index, 255 - index, 7 * (index % 9))).collect()
@@ -148,7 +128,7 @@ mod tests {
         let pixels = pixels(7 * 9);
         let whole = encode_png(&Image::new(7, 9, &pixels)).expect("encoded");
         for part in [1, 4, 7, 21, 63] {
-            let mut file = PngFile::create(&path, 7, 9).expect("begun");
+            let mut file = PictureFile::create(&path, 7, 9).expect("begun");
             for pixels in pixels.chunks(part) {
                 file.write(pixels).expect("written");
             }
@@ -156,10 +136,10 @@ mod tests {
             assert_eq!(fs::read(&path).expect("readable"), whole, "parts of {part}");
         }
         let image = Image::new(7, 9, &pixels);
-        write_png(&path, &image).expect("written");
+        write_picture(&path, &image).expect("written");
         assert_eq!(fs::read(&path).expect("readable"), whole);
         let odd = Image { rgba: image.rgba[..250].to_vec(), ..image };
-        assert!(write_png(&path, &odd).is_err() && encode_png(&odd).is_err());
+        assert!(write_picture(&path, &odd).is_err() && encode_png(&odd).is_err());
         assert_eq!(fs::read(&path).expect("the one before"), whole);
     }
 
@@ -169,7 +149,7 @@ mod tests {
         let path = folder.path().join("half.png");
         let pixels = pixels(7 * 9);
         let half = || {
-            let mut file = PngFile::create(&path, 7, 9).expect("begun");
+            let mut file = PictureFile::create(&path, 7, 9).expect("begun");
             file.write(&pixels[..30]).expect("written");
             file
         };

@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 use metaball_core::gpu::{self, Gpu, IsoRenderer, Shading, Targets};
 use metaball_core::{Image, Scene, View};
 use particle_files::{AnimatedScene, BoxError, NumberedPath};
-use picture_files::{encode_described_png, write_atomically};
+use picture_files::write_described;
 
 use super::report::{FrameOutcome, FrameReport, FrameTimes, milliseconds};
 use crate::certain::Certain;
@@ -52,6 +52,15 @@ struct Ready {
     renderer: Renderer,
     load: Duration,
     build: Duration,
+}
+
+/// The picture of a frame.
+struct Drawn {
+    image: Image,
+    /// But for what went before it was drawn.
+    times: FrameTimes,
+    /// Rays that the CPU was asked for the adapter.
+    asked_again: u64,
 }
 
 impl Job<'_> {
@@ -111,18 +120,19 @@ impl Job<'_> {
                 let outcome = match scene {
                     Err(error) => FrameOutcome::Broken { error: chain(error.as_ref()) },
                     Ok(scene) => {
-                        let (image, times) = self
+                        let Drawn { image, times, asked_again } = self
                             .picture(&scene, &mut renderer, &mut targets)
                             .map_err(self.stopped(number))?;
                         if picture_sender.send((number, image)).is_err() {
                             break;
                         }
-                        FrameOutcome::Drawn(FrameTimes {
+                        let times = FrameTimes {
                             load_ms: milliseconds(load),
                             build_ms: milliseconds(build) + times.build_ms,
                             waited_ms: milliseconds(waited),
                             ..times
-                        })
+                        };
+                        FrameOutcome::Drawn { times, asked_again }
                     }
                 };
                 // After the last frame none waits for it.
@@ -156,7 +166,7 @@ impl Job<'_> {
         scene: &Scene,
         renderer: &mut Renderer,
         targets: &mut Option<Targets>,
-    ) -> Result<(Image, FrameTimes), Error> {
+    ) -> Result<Drawn, Error> {
         let none = FrameTimes::default();
         let (Some(gpu), Some(renderer)) = (self.gpu, renderer) else {
             let start = Instant::now();
@@ -165,7 +175,8 @@ impl Job<'_> {
             let Summary { build, tally, .. } = drawn.summary;
             let (build_ms, draw_ms) = (milliseconds(build), milliseconds(tally.frame));
             let shade_ms = milliseconds(start.elapsed()) - build_ms - draw_ms;
-            return Ok((drawn.image, FrameTimes { build_ms, draw_ms, shade_ms, ..none }));
+            let times = FrameTimes { build_ms, draw_ms, shade_ms, ..none };
+            return Ok(Drawn { image: drawn.image, times, asked_again: tally.asked_again });
         };
         // Frames of a sequence need not agree on whether they have colours.
         let colors = scene.colors().is_some();
@@ -178,16 +189,18 @@ impl Job<'_> {
         let start = Instant::now();
         let certain = Certain::new(scene);
         let mut hits = targets.read_hits(gpu)?;
-        certain.decide(gpu, targets, self.view, &mut hits)?;
+        let mut asked_again = certain.decide(gpu, targets, self.view, &mut hits)?;
         let image = match self.lighting {
             Some(lighting) => {
                 let all = |_| ControlFlow::Continue(());
-                lighting.draw(gpu, renderer.as_mut(), &certain, self.view, &hits, all)?.image
+                let lit = lighting.draw(gpu, renderer.as_mut(), &certain, self.view, &hits, all)?;
+                asked_again += lit.asked_again;
+                lit.image
             }
             None => Shading::new(gpu).draw(targets, self.view, scene, self.options.picture)?.image,
         };
         let (draw_ms, shade_ms) = (milliseconds(frame.wall), milliseconds(start.elapsed()));
-        Ok((image, FrameTimes { draw_ms, shade_ms, ..none }))
+        Ok(Drawn { image, times: FrameTimes { draw_ms, shade_ms, ..none }, asked_again })
     }
 
     /// To be given what stopped a frame.
@@ -202,8 +215,7 @@ impl Job<'_> {
     }
 
     fn write(&self, number: u32, image: &Image) -> Result<(), Error> {
-        let png = encode_described_png(image, &self.description(number))?;
-        Ok(write_atomically(&self.out.path(number), &png)?)
+        Ok(write_described(&self.out.path(number), image, &self.description(number))?)
     }
 }
 

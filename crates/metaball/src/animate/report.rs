@@ -22,9 +22,16 @@ pub struct AnimationReport {
     pub size: (u32, u32),
     /// Whether each frame was built only after the one before was drawn.
     pub in_turn: bool,
+    /// How many frames were drawn.
+    pub drawn: usize,
     /// Frames that were there already.
     #[serde(rename = "there")]
     pub kept: Vec<u32>,
+    /// Numbers that were asked for and that the scene has no frame for, or, where none were asked for, those
+    /// that miss between its first and its last: the first and the last of each row of them.
+    pub absent: Vec<[u32; 2]>,
+    /// Rays that the adapter could not tell in f32, and that the CPU was asked instead, of all frames drawn.
+    pub asked_again: u64,
     /// From the start of the first frame to the end of the last file.
     pub wall_ms: f64,
     /// Medians over the drawn frames; `None` where there is none.
@@ -33,7 +40,7 @@ pub struct AnimationReport {
     pub hidden: Option<f64>,
     /// What keeps `hidden` from being time saved, if anything does.
     pub caveat: Option<String>,
-    /// The frames that were not there.
+    /// The frames that were not there already.
     pub frames: Vec<FrameReport>,
 }
 
@@ -52,7 +59,13 @@ pub struct FrameReport {
 #[serde(untagged)]
 pub enum FrameOutcome {
     /// Its picture is written, or about to be.
-    Drawn(FrameTimes),
+    Drawn {
+        /// How long it took.
+        #[serde(flatten)]
+        times: FrameTimes,
+        /// Rays that the adapter could not tell in f32, and that the CPU was asked instead.
+        asked_again: u64,
+    },
     /// Its particles could not be used.
     Broken {
         /// Why, with all causes.
@@ -83,11 +96,12 @@ impl AnimationReport {
     pub(super) fn new(
         (scene, opened): (&str, &Opened),
         options: &AnimateOptions,
-        kept: Vec<u32>,
+        (kept, absent): (Vec<u32>, Vec<[u32; 2]>),
         frames: Vec<FrameReport>,
         wall: Duration,
     ) -> Self {
-        let times: Vec<_> = frames.iter().filter_map(FrameReport::times).collect();
+        let (times, asked_again): (Vec<_>, Vec<_>) =
+            frames.iter().filter_map(FrameReport::drawn).unzip();
         let shared = opened.gpu.as_ref().is_some_and(|gpu| gpu.report().is_software());
         let caveat = (shared && !options.in_turn).then(|| {
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -102,7 +116,10 @@ impl AnimationReport {
             computed_by: opened.describe(),
             size: options.draw.size,
             in_turn: options.in_turn,
+            drawn: times.len(),
             kept,
+            absent,
+            asked_again: asked_again.into_iter().sum(),
             wall_ms: milliseconds(wall),
             median: medians(&times),
             hidden: hidden(&times),
@@ -114,16 +131,17 @@ impl AnimationReport {
     /// Frames whose particles could not be used: number and reason.
     pub fn broken(&self) -> impl Iterator<Item = (u32, &str)> {
         self.frames.iter().filter_map(|frame| match &frame.outcome {
-            FrameOutcome::Drawn(_) => None,
+            FrameOutcome::Drawn { .. } => None,
             FrameOutcome::Broken { error } => Some((frame.number, error.as_str())),
         })
     }
 }
 
 impl FrameReport {
-    fn times(&self) -> Option<FrameTimes> {
+    /// Its times, and the rays that were asked again.
+    fn drawn(&self) -> Option<(FrameTimes, u64)> {
         match self.outcome {
-            FrameOutcome::Drawn(times) => Some(times),
+            FrameOutcome::Drawn { times, asked_again } => Some((times, asked_again)),
             FrameOutcome::Broken { .. } => None,
         }
     }

@@ -15,13 +15,16 @@ const ALL: Planes = Planes { pixels: true, hits: true, light: true };
 struct Folder {
     /// Removes itself.
     _folder: tempfile::TempDir,
+    picture: PathBuf,
+    /// The spool's.
     path: PathBuf,
 }
 
 fn folder() -> Folder {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = Spool::path_beside(&folder.path().join("picture.png"));
-    Folder { _folder: folder, path }
+    let picture = folder.path().join("picture.png");
+    let path = folder.path().join("picture.png.spool");
+    Folder { _folder: folder, picture, path }
 }
 
 fn view() -> View {
@@ -34,8 +37,8 @@ fn description(text: &str) -> Description {
     Description::from_json(json.as_bytes()).expect("a description")
 }
 
-fn open(path: &Path, text: &str, resume: bool) -> Result<Spool, Error> {
-    Spool::open(path.to_owned(), &view(), ALL, &description(text), resume)
+fn open(picture: &Path, text: &str, resume: bool) -> Result<Spool, Error> {
+    Spool::open(picture, &view(), ALL, &description(text), resume)
 }
 
 /// Every kind of hit.
@@ -74,7 +77,7 @@ fn bands_come_back_with_all_their_bits() {
         let bands = [band(0..16, planes), band(16..40, planes)];
         let open = |resume| {
             let text = description("a");
-            Spool::open(folder.path.clone(), &view(), planes, &text, resume)
+            Spool::open(&folder.picture, &view(), planes, &text, resume)
         };
         let mut spool = open(false).expect("begun");
         for band in &bands {
@@ -92,7 +95,7 @@ fn bands_come_back_with_all_their_bits() {
 #[test]
 fn what_is_not_whole_is_written_anew() {
     let folder = folder();
-    let mut spool = open(&folder.path, "a", false).expect("begun");
+    let mut spool = open(&folder.picture, "a", false).expect("begun");
     let first = band(0..16, ALL);
     spool.append(&first).expect("written");
     let whole = spool.end as usize;
@@ -106,7 +109,7 @@ fn what_is_not_whole_is_written_anew() {
     let broken = cuts.into_iter().map(|length| bytes[..length].to_vec()).chain([flipped]);
     for broken in broken {
         fs::write(&folder.path, &broken).expect("written");
-        let mut spool = open(&folder.path, "a", true).expect("resumed");
+        let mut spool = open(&folder.picture, "a", true).expect("resumed");
         assert_eq!((spool.rows(), read(&spool)), (16, vec![first.clone()]));
         spool.append(&band(16..32, ALL)).expect("written");
         drop(spool);
@@ -114,24 +117,25 @@ fn what_is_not_whole_is_written_anew() {
     }
     for length in [0, 16, 20, 30] {
         fs::write(&folder.path, &bytes[..length]).expect("written");
-        assert_eq!(open(&folder.path, "a", true).expect("begun").rows(), 0, "{length} bytes");
+        assert_eq!(open(&folder.picture, "a", true).expect("begun").rows(), 0, "{length} bytes");
     }
 }
 
 #[test]
 fn a_spool_that_is_of_use_is_kept() {
     let folder = folder();
-    let error = |text, resume| open(&folder.path, text, resume).expect_err("refused").to_string();
-    let mut spool = open(&folder.path, "a", false).expect("begun");
+    let error =
+        |text, resume| open(&folder.picture, text, resume).expect_err("refused").to_string();
+    let mut spool = open(&folder.picture, "a", false).expect("begun");
     assert!(error("a", true).ends_with("found it in use by another"));
     drop(spool);
-    spool = open(&folder.path, "a", false).expect("nothing is lost");
+    spool = open(&folder.picture, "a", false).expect("nothing is lost");
     spool.append(&band(0..16, ALL)).expect("written");
     drop(spool);
     assert!(error("a", false).contains("16 of 40 rows"));
     let other = error("b", true);
     assert!(other.contains("needed the scene of this picture, b, found a"), "{other}");
-    assert_eq!(open(&folder.path, "b", false).expect("begun anew").rows(), 0);
+    assert_eq!(open(&folder.picture, "b", false).expect("begun anew").rows(), 0);
 
     fs::write(&folder.path, "my own notes").expect("written");
     assert!(error("a", false).ends_with("found another file"));
