@@ -21,6 +21,7 @@ use self::record::{Certificate, DISTANCES, SCALES};
 use self::tally::{Category, Count, ErrorClass, Tracer};
 use self::test_scene::{TestScene, test_scenes};
 use crate::console::{self, ProgressBar, open_adapter, table};
+use crate::outputs::output_files;
 use crate::unfinished;
 use harness::numbers::{grouped, small};
 
@@ -57,7 +58,8 @@ const SECONDS_OF_GROUP: f64 = 10.0;
 /// when the device fails, or a file cannot be written.
 pub fn certify(options: &Options) -> anyhow::Result<()> {
     let gpu = options.adapter.as_ref().map(open_adapter).transpose()?;
-    let unfinished_path = options.out.join("unfinished.json");
+    let names = ["unfinished.json", "certify.json"];
+    let [unfinished_path, path] = output_files(&options.out, names, &[], &[])?;
     let fresh = Certificate::fresh(gpu.as_ref());
     let left = fresh.unfinished(&unfinished_path);
     if left.is_some() {
@@ -66,7 +68,6 @@ pub fn certify(options: &Options) -> anyhow::Result<()> {
     let certificate =
         run(options, gpu.as_ref(), left.unwrap_or(fresh), |state| state.write(&unfinished_path))?;
 
-    let path = options.out.join("certify.json");
     certificate.write(&path)?;
     unfinished::remove(&unfinished_path);
     console::line(&summary(&certificate));

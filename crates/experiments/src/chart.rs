@@ -23,6 +23,7 @@ use self::record::{Chart, Group, SCHEMA};
 use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any};
 use crate::extent::Extent;
+use crate::outputs::output_files;
 use crate::page::cpu_remark;
 use harness::comparison::{self, compare_scene, steps};
 use harness::configuration::Configuration;
@@ -64,9 +65,11 @@ const TIME_LIMIT_MS: f64 = 4_000.0;
 /// an adapter where there is none is reported and left out.
 ///
 /// # Errors
-/// When there is no such adapter, when a file cannot be written, or when nothing could be measured.
+/// When there is no such adapter, when a file cannot be written or is an input, or when nothing could be
+/// measured.
 pub fn chart(options: &Options) -> anyhow::Result<()> {
-    let path = options.out.join("chart.json");
+    let names = ["chart.json", "chart.csv", "chart.html"];
+    let [path, csv, page] = output_files(&options.out, names, &options.scenes, &[])?;
     let plan = plan(options.extent, &options.scenes, &options.methods);
     let configurations = plan.iter().flat_map(|planned| &planned.configurations);
     let gpu = open_adapter_if_any(options.adapter.as_ref(), configurations)?;
@@ -95,8 +98,7 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
     chart.moved = before.map(|before| moved(&before, &chart));
     chart.write(&path)?;
     let records = chart.groups.iter().flat_map(|group| &group.records);
-    write_csv(&options.out.join("chart.csv"), records)?;
-    let page = options.out.join("chart.html");
+    write_csv(&csv, records)?;
     write_atomically(&page, page::page(&chart).as_bytes())?;
 
     for sentence in conclusions(&chart.error_records()) {

@@ -10,6 +10,7 @@ use metaball_core::gpu::AdapterChoice;
 
 use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any, table};
+use crate::outputs::output_files;
 use crate::page::cpu_remark;
 use harness::comparison::{self, compare_scene, steps};
 use harness::machine::Provenance;
@@ -34,7 +35,7 @@ pub struct Options {
     pub comparison: comparison::Options,
     /// What to draw with; `None`: methods that need no adapter, and no others.
     pub adapter: Option<AdapterChoice>,
-    /// Folder for `index.html` and `records.json`.
+    /// Folder for `index.html`, `records.json` and `records.csv`.
     pub out: PathBuf,
 }
 
@@ -42,8 +43,13 @@ pub struct Options {
 /// that does not build is reported and left out; so is one that needs an adapter where there is none.
 ///
 /// # Errors
-/// When there is no such adapter, when a file cannot be written, or when nothing worked at all.
+/// When there is no such adapter, when a file cannot be written or is an input, or when nothing worked at
+/// all.
 pub fn compare(options: &Options) -> anyhow::Result<()> {
+    let hits: Vec<_> =
+        options.comparison.imported.iter().map(|imported| imported.file.clone()).collect();
+    let names = ["index.html", "records.json", "records.csv"];
+    let [page, json, csv] = output_files(&options.out, names, &options.scenes, &hits)?;
     let gpu = open_adapter_if_any(options.adapter.as_ref(), &options.comparison.configurations)?;
     let gpu = gpu.as_ref();
 
@@ -87,9 +93,8 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
             console::note(&format!("{}: {remark}", scene.scene));
         }
     }
-    let page = options.out.join("index.html");
-    records.write(&options.out.join("records.json"))?;
-    write_csv(&options.out.join("records.csv"), &records.records)?;
+    records.write(&json)?;
+    write_csv(&csv, &records.records)?;
     write_atomically(&page, page::page(&records, &scenes, &remarks).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
     anyhow::ensure!(worked, "nothing could be compared; the reasons are above");

@@ -18,6 +18,7 @@ pub mod console;
 pub mod diff;
 pub mod extent;
 pub mod html;
+mod outputs;
 mod page;
 pub mod plot;
 pub mod score;

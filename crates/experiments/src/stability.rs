@@ -21,6 +21,7 @@ use self::outcome::Outcome;
 use self::record::{Limit, SCHEMA, Stability};
 use self::skipping::reason_to_skip;
 use crate::console::{self, ProgressBar, open_adapter_if_any, table};
+use crate::outputs::output_files;
 use crate::unfinished;
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
@@ -71,7 +72,8 @@ pub fn stability(options: &Options) -> anyhow::Result<()> {
         limits: Vec::new(),
         results: Vec::new(),
     };
-    let unfinished_path = options.out.join("unfinished.json");
+    let names = ["unfinished.json", "index.html", "records.json"];
+    let [unfinished_path, page, json] = output_files(&options.out, names, &[], &[])?;
     let left = stability.unfinished(&unfinished_path).unwrap_or_default();
     run_cases(gpu, options.quick, (&chosen, &methods), left, |results| {
         stability.results = results.to_vec();
@@ -84,8 +86,7 @@ pub fn stability(options: &Options) -> anyhow::Result<()> {
     let of_case = |case| methods.iter().filter_map(move |method| limit_of(case, method));
     stability.limits = chosen.iter().flat_map(of_case).collect();
     console::line(&summary(&stability, &chosen, &methods));
-    let page = options.out.join("index.html");
-    stability.write(&options.out.join("records.json"))?;
+    stability.write(&json)?;
     write_atomically(&page, page::page(&stability, &chosen, &methods).as_bytes())?;
     unfinished::remove(&unfinished_path);
     console::line(&format!("\n{}", page.display()));

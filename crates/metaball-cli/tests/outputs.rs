@@ -70,6 +70,15 @@ fn an_input_is_never_written_over() {
 }
 
 #[test]
+fn results_replace_no_input() {
+    let folder = folder("results");
+    fs::write(folder.join("records.csv"), "x,y,z,radius\n0,0,0,1\n").expect("writable");
+    let over = refused(&folder, "compare records.csv --out .");
+    assert!(over.contains("for the results, found the scene records.csv"), "{over}");
+    assert!(refused(&folder, "compare b.xyz --out b.xyz").contains("b.xyz"));
+}
+
+#[test]
 #[cfg(unix)]
 fn links_stay_and_their_files_are_replaced() {
     use std::os::unix::fs::symlink;

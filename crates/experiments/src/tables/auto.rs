@@ -75,8 +75,9 @@ pub struct Measurements {
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
 pub fn tables(options: &Options, scenes: &[String]) -> anyhow::Result<()> {
     let gpu = open_adapter(&options.adapter)?;
-    let measurements = measure(&gpu, &plan(options, scenes), &configurations(options.extent));
-    publish(&measurements, &options.out)
+    publish(&options.out, scenes, || {
+        Ok(measure(&gpu, &plan(options, scenes), &configurations(options.extent)))
+    })
 }
 
 fn measure(gpu: &Gpu, plan: &[PlannedScene], configurations: &[Configuration]) -> Measurements {

@@ -121,7 +121,7 @@ impl Plan {
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
 pub fn tables(options: &Options, time: Option<Duration>) -> anyhow::Result<()> {
     let gpu = open_adapter(&options.adapter)?;
-    publish(&measure(&gpu, &Plan::new(options), time)?, &options.out)
+    publish(&options.out, &[], || measure(&gpu, &Plan::new(options), time))
 }
 
 impl Report for Measurements {

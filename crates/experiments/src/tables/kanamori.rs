@@ -44,7 +44,7 @@ pub struct Measurements {
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
 pub fn tables(options: &Options, time: Option<Duration>) -> anyhow::Result<()> {
     let gpu = open_adapter(&options.adapter)?;
-    publish(&measure(&gpu, options, time.unwrap_or(Duration::MAX)), &options.out)
+    publish(&options.out, &[], || Ok(measure(&gpu, options, time.unwrap_or(Duration::MAX))))
 }
 
 impl Report for Measurements {

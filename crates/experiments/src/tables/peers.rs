@@ -80,7 +80,7 @@ pub fn tables(options: &Options) -> anyhow::Result<()> {
     if peer.is_none() {
         console::note(&absent());
     }
-    publish(&measure(&options.plan(), peer.as_ref()), &options.out)
+    publish(&options.out, &options.scenes, || Ok(measure(&options.plan(), peer.as_ref())))
 }
 
 impl Report for Measurements {

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::console;
+use crate::outputs::output_files;
 use harness::output::write_json;
 use picture_files::write_atomically;
 
@@ -23,14 +24,20 @@ pub(super) trait Report: Serialize {
     fn is_empty(&self) -> bool;
 }
 
-/// Prints a report, and writes it into a folder.
+/// Measures a report on scenes that the user named, if any, prints it, and writes it into a folder.
 ///
 /// # Errors
-/// When a file cannot be written, or nothing could be measured.
-pub(super) fn publish<R: Report>(report: &R, out: &Path) -> anyhow::Result<()> {
+/// When it cannot be measured, a file cannot be written or is an input, or nothing could be measured.
+pub(super) fn publish<R: Report>(
+    out: &Path,
+    scenes: &[String],
+    measure: impl FnOnce() -> anyhow::Result<R>,
+) -> anyhow::Result<()> {
+    let names = ["html", "json"].map(|ending| format!("{}.{ending}", R::NAME));
+    let [page, json] = output_files(out, names.each_ref().map(String::as_str), scenes, &[])?;
+    let report = measure()?;
     console::line(&report.text());
-    let page = out.join(format!("{}.html", R::NAME));
-    write_json(&out.join(format!("{}.json", R::NAME)), report)?;
+    write_json(&json, &report)?;
     write_atomically(&page, report.page().as_bytes())?;
     console::line(&format!("\n{}", page.display()));
     anyhow::ensure!(!report.is_empty(), "nothing could be measured; see the page");

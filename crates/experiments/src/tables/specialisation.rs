@@ -61,7 +61,7 @@ pub struct Measurements {
 /// Without an adapter, when a file cannot be written, or when nothing could be measured.
 pub fn tables(options: &Options, scenes: &[String]) -> anyhow::Result<()> {
     let gpu = open_adapter(&options.adapter)?;
-    publish(&measure(&gpu, &plan(options, scenes))?, &options.out)
+    publish(&options.out, scenes, || measure(&gpu, &plan(options, scenes)))
 }
 
 impl Report for Measurements {

@@ -45,7 +45,7 @@ pub struct Measurements {
 pub fn tables(options: &Options) -> anyhow::Result<()> {
     let gpu = open_adapter(&options.adapter)?;
     let path = camera_path(options, &gpu, (160, 120));
-    publish(&measure(&gpu, options.extent, path), &options.out)
+    publish(&options.out, &[], || Ok(measure(&gpu, options.extent, path)))
 }
 
 fn measure(gpu: &Gpu, extent: Extent, path: CameraPath) -> Measurements {
