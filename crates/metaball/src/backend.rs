@@ -5,6 +5,10 @@ use metaball_core::gpu::{AdapterChoice, Gpu, GpuError};
 use crate::Error;
 
 /// What computes a picture.
+///
+/// On Linux a layer of Mesa's drivers prints an error on standard error, and goes on, when adapters are
+/// looked for and `XDG_RUNTIME_DIR` is not set. The variable `NODEVICE_SELECT`, set before the process
+/// begins, turns the layer off; the binary `metaball` does that for itself.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum Backend {
     /// A graphics processor if the machine has one, else the CPU: an adapter that computes on the CPU

@@ -24,7 +24,7 @@
 //!   [which method](Method) and [what computes](Backend). All of them have defaults. The result is a
 //!   [`Drawing`]: the image, and distance, normal and verdict of every ray.
 //! - [`draw_to_files`] draws it to files band by band, so that it may be of any size, and goes on with one
-//!   that was interrupted.
+//!   that was interrupted. It writes over none of its own [inputs](Outputs::inputs), which [`inputs()`] finds.
 //! - [`animate()`] draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
 //!   while the structure of the next one is built.
 //!

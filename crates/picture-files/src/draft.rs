@@ -111,8 +111,9 @@ impl Place {
 }
 
 fn temporary_in(folder: &Path, target: &Path) -> io::Result<NamedTempFile> {
+    // The start of its name: all of it may be as long as names can be.
     let name = target.file_name().unwrap_or_default().to_string_lossy();
-    let prefix = format!(".{name}.");
+    let prefix = format!(".{}.", name.chars().take(32).collect::<String>());
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(".partial");
     #[cfg(unix)]
@@ -151,6 +152,8 @@ mod tests {
         assert_eq!(fs::read(&path).expect("readable"), b"second");
         let beside = fs::read_dir(folder.path().join("deep/er")).expect("readable").count();
         assert_eq!(beside, 1);
+        let long = folder.path().join("ß".repeat(127));
+        write_atomically(&long, b"x").expect("a name of 254 bytes is one");
     }
 
     #[test]

@@ -38,6 +38,7 @@ pub(super) fn text_in(path: &Path) -> Option<String> {
     if !jpeg.ends_with(&END) {
         return None;
     }
+    image::load_from_memory_with_format(&jpeg, image::ImageFormat::Jpeg).ok()?;
     let comments = Segments::of(&jpeg).filter(|segment| segment.marker == COMMENT);
     let text: Vec<u8> =
         comments.flat_map(|comment| &jpeg[comment.start..comment.end]).copied().collect();
