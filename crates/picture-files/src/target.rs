@@ -9,9 +9,6 @@ use crate::PictureFileError;
 /// Links that are followed: as many as Linux does.
 const MOST_LINKS: usize = 40;
 
-/// Where the names of open files lie: whatever such a name leads to is written to.
-const OPEN_FILES: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc"];
-
 /// What the path of an output leads to, behind all symbolic links.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
@@ -27,7 +24,7 @@ impl Target {
     /// # Errors
     /// When the path names no file or leads to a folder, or when the system does not tell.
     pub fn of(path: &Path) -> Result<Self, PictureFileError> {
-        if OPEN_FILES.iter().any(|names| path.starts_with(names)) {
+        if names_open_file(path) {
             return Ok(Self::Stream(path.to_owned()));
         }
         let kind = match fs::metadata(path) {
@@ -53,6 +50,15 @@ impl Target {
     pub(crate) fn is_stream(path: &Path) -> bool {
         matches!(Self::of(path), Ok(Self::Stream(_)))
     }
+}
+
+/// Whether a path names a file that a process has open, such as `/dev/stdout`.
+fn names_open_file(path: &Path) -> bool {
+    let numbered = |folder: &Path| {
+        folder == Path::new("/dev/fd") || (folder.starts_with("/proc") && folder.ends_with("fd"))
+    };
+    ["/dev/stdout", "/dev/stderr"].map(Path::new).contains(&path)
+        || path.parent().is_some_and(numbered)
 }
 
 /// The path at the end of a chain of links; the file need not be there.
@@ -108,9 +114,12 @@ mod tests {
         assert_eq!(Target::of(&at("first")).expect("a file"), wanted);
 
         symlink("/dev/null", at("null.png")).expect("linked");
-        for stream in ["/dev/null", "/dev/stdout", "/dev/fd/1"].map(PathBuf::from) {
+        for stream in ["/dev/null", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] {
+            let stream = PathBuf::from(stream);
             assert_eq!(Target::of(&stream).expect("open"), Target::Stream(stream));
         }
+        assert!(!names_open_file(Path::new("/proc/self/cwd/a.png")));
+        assert!(!names_open_file(Path::new("fd/a.png")));
         assert!(Target::is_stream(&at("null.png")) && !Target::is_stream(&at("real.png")));
         symlink("round.png", at("round.png")).expect("linked");
         assert!(Target::of(&at("round.png")).is_err());
