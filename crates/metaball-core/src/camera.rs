@@ -307,21 +307,47 @@ impl View {
 
     /// The same of some rows, counted from the top; of those that the view has.
     pub fn rays_of_rows(&self, rows: Range<u32>) -> Vec<Ray> {
-        let Self { camera, width, height, .. } = self;
-        let rows = rows.start.min(*height)..rows.end.min(*height);
-        // A picture has few columns and rows, and many pixels.
-        let columns: Vec<DVec3> =
-            (0..*width).map(|column| camera.towards_column(column, *width, *height)).collect();
-        let above: Vec<DVec3> = rows.clone().map(|row| camera.up_to_row(row, *height)).collect();
-        let first = rows.start as usize * *width as usize;
+        let rows = rows.start.min(self.height)..rows.end.min(self.height);
+        let width = self.width as usize;
+        let (first, directions) = (rows.start as usize * width, self.directions());
         let ray = |pixel: usize| {
-            let (column, row) = (pixel % columns.len(), pixel / columns.len());
-            let direction = (columns[column] + above[row]).normalize().as_vec3();
-            let opaque = self.opaque_distance().map(|distances| distances[first + pixel]);
+            let opaque = self.opaque_distance().map(|distances| distances[pixel]);
             let t_max = opaque.map_or(NO_LIMIT, |distance| distance.min(NO_LIMIT));
-            Ray { t_max, ..Ray::new(camera.eye, direction) }
+            Ray { t_max, ..Ray::new(self.camera.eye, directions.through(pixel as u32)) }
         };
-        (0..columns.len() * above.len()).into_par_iter().map(ray).collect()
+        (first..first + rows.len() * width).into_par_iter().map(ray).collect()
+    }
+
+    /// The directions of the view's rays.
+    pub fn directions(&self) -> PixelDirections {
+        let Self { camera, width, height, .. } = self;
+        let column = |column| camera.towards_column(column, *width, *height);
+        let row = |row| camera.up_to_row(row, *height);
+        PixelDirections {
+            columns: (0..*width).map(column).collect(),
+            rows: (0..*height).map(row).collect(),
+        }
+    }
+}
+
+/// Directions through the middles of a view's pixels. A picture has few columns and rows, and many
+/// pixels: what those of a column or a row have in common is kept.
+#[derive(Debug, Clone)]
+pub struct PixelDirections {
+    columns: Vec<DVec3>,
+    rows: Vec<DVec3>,
+}
+
+impl PixelDirections {
+    /// The unit direction through a pixel, named by its index row by row: [`Camera::exact_direction`],
+    /// rounded once.
+    ///
+    /// # Panics
+    /// When the view has no such pixel.
+    pub fn through(&self, pixel: u32) -> Vec3 {
+        let (column, row) =
+            (pixel as usize % self.columns.len(), pixel as usize / self.columns.len());
+        (self.columns[column] + self.rows[row]).normalize().as_vec3()
     }
 }
 

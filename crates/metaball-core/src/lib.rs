@@ -68,7 +68,7 @@ mod work;
 
 pub use aabb::Aabb;
 pub use ball::{Metaball, Support};
-pub use camera::{Camera, CameraError, View, ViewError};
+pub use camera::{Camera, CameraError, PixelDirections, View, ViewError};
 pub use clip::{Clip, ClipError, Section};
 pub use color::Color;
 pub use host_method::{HostError, HostMethod, HostRenderer};

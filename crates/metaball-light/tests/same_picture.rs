@@ -81,6 +81,27 @@ fn threads_and_bands_change_nothing() {
     }
 }
 
+/// A single sample goes through the middles of pixels, where paths may begin with hits that are known.
+#[test]
+fn first_hits_that_are_known_change_nothing() {
+    for effects in effects() {
+        let scene = scene();
+        let tree = Tree::build(&scene, &Options::certified()).expect("legal");
+        let tracer = Tracer::new(&tree, &scene);
+        let mut canary = false;
+        for samples in [1, 3] {
+            let picture = PathTracer::new(&tracer, &scene, &view(), &effects, samples, 11);
+            let picture = picture.expect("every query is answered");
+            let rows = 16..SIZE.1;
+            let (wanted, mut hits) = (picture.rows(rows.clone()), picture.first_hits(rows.clone()));
+            assert_eq!(picture.rows_behind(rows.clone(), &hits), wanted);
+            hits.rotate_right(1);
+            canary |= picture.rows_behind(rows, &hits) != wanted;
+        }
+        assert!(canary, "hits of other pixels passed");
+    }
+}
+
 /// Sums of the light's bits as they were first drawn, on x86-64 with AVX2: another machine, another
 /// compiler or another library that draws another picture fails here.
 #[test]

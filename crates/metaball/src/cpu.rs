@@ -61,8 +61,10 @@ pub(crate) struct Painter<'a> {
 /// How a picture is shaded.
 enum Look<'a> {
     Shared(Shader<'a>),
-    Lit(&'a Lighting, Box<PathTracer<'a, ClippedTracer<'a, Scene>>>),
+    Lit(&'a Lighting, Box<Paths<'a>>),
 }
+
+type Paths<'a> = PathTracer<'a, ClippedTracer<'a, Scene>>;
 
 impl<'a> Painter<'a> {
     /// Of a view in this light, if there is any, else of what the options say.
@@ -113,29 +115,24 @@ impl<'a> Painter<'a> {
 
     /// Draws some rows, from a multiple of sixteen on.
     pub(crate) fn band(&self, rows: Range<u32>, planes: Planes) -> Band {
+        let mut band = match &self.look {
+            Look::Shared(shader) => self.shared_band(shader, rows, planes),
+            Look::Lit(lighting, paths) => lit_band(lighting, paths, rows, planes),
+        };
+        band.keep(planes);
+        band
+    }
+
+    fn shared_band(&self, shader: &Shader<'_>, rows: Range<u32>, planes: Planes) -> Band {
         let start = Instant::now();
         let rays = self.view.rays_of_rows(rows.clone());
         let hits = self.tracer.picture_hits(&rays, self.view.width() as usize);
-        let mut tally = Tally { frame: start.elapsed(), ..Tally::of(&hits) };
-        let (mut pixels, mut light) = (Vec::new(), Vec::new());
-        match &self.look {
-            Look::Shared(shader) if planes.pixels => {
-                pixels = shader.pixels(rows.start, &rays, &hits, ValueRange::default());
-            }
-            Look::Shared(_) => {}
-            Look::Lit(lighting, paths) => {
-                let start = Instant::now();
-                let lit = paths.rows(rows.clone());
-                (tally.light, tally.undecided_light) = (start.elapsed(), lit.rays.undecided);
-                if planes.pixels {
-                    pixels = lighting.develop(&lit.light);
-                }
-                light = lit.light;
-            }
+        let tally = Tally { frame: start.elapsed(), ..Tally::of(&hits) };
+        let mut pixels = Vec::new();
+        if planes.pixels {
+            pixels = shader.pixels(rows.start, &rays, &hits, ValueRange::default());
         }
-        let mut band = Band { rows, pixels, hits, light, tally };
-        band.keep(planes);
-        band
+        Band { rows, pixels, hits, light: Vec::new(), tally }
     }
 
     /// Makes the pixels of bands without any, of a picture with these distances.
@@ -146,6 +143,18 @@ impl<'a> Painter<'a> {
         };
         Finisher { painter: self, range, cue }
     }
+}
+
+fn lit_band(lighting: &Lighting, paths: &Paths<'_>, rows: Range<u32>, planes: Planes) -> Band {
+    let start = Instant::now();
+    let found = paths.first_hits(rows.clone());
+    let frame = start.elapsed();
+    let lit = paths.rows_behind(rows.clone(), &found);
+    let hits: Vec<_> = found.iter().map(|found| found.hit).collect();
+    let (light, undecided_light) = (start.elapsed() - frame, lit.rays.undecided);
+    let tally = Tally { frame, light, undecided_light, ..Tally::of(&hits) };
+    let pixels = if planes.pixels { lighting.develop(&lit.light) } else { Vec::new() };
+    Band { rows, pixels, hits, light: lit.light, tally }
 }
 
 /// Makes pixels that depend on the whole picture, from its top to its bottom.

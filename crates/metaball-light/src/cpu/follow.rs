@@ -1,10 +1,11 @@
 //! Paths of light, followed together in waves: all their rays of one kind are answered, and what they
 //! find makes the next ones.
 
+use std::mem::take;
 use std::ops::Add;
 
 use glam::Vec3;
-use metaball_core::{HostTracer, Ray, RayQuery, Verdict};
+use metaball_core::{HostTracer, Ray, RayQuery, SurfaceHit, Verdict};
 
 use super::path_tracer::PathTracer;
 use super::scatter::Sent;
@@ -48,6 +49,8 @@ pub(super) struct Sample<'a> {
     pub(super) pixels: &'a [u32],
     /// Index of the sample.
     pub(super) index: u32,
+    /// What their eye rays find, where that is known.
+    pub(super) first_hits: Option<&'a [SurfaceHit]>,
 }
 
 impl Sample<'_> {
@@ -82,59 +85,81 @@ impl<S> Scratch<S> {
             rays: Rays::default(),
         }
     }
+
+    /// What some eye rays find.
+    pub(super) fn first_hits<T: HostTracer<Scratch = S>>(
+        &mut self,
+        tracer: &T,
+        rays: impl Iterator<Item = Ray>,
+    ) -> &[SurfaceHit] {
+        self.wave.clear();
+        self.wave.rays.extend(rays);
+        self.wave.answer(tracer, RayQuery::FirstHit, &mut self.tracer);
+        &self.wave.answers
+    }
 }
 
 impl<T: HostTracer> PathTracer<'_, T> {
     /// Follows the paths to their ends.
     pub(super) fn follow(&self, sample: Sample<'_>, scratch: &mut Scratch<T::Scratch>) {
-        let paths = 0..sample.pixels.len() as u32;
-        scratch.paths.clear();
-        scratch.paths.resize(paths.len(), Path::START);
-        let start = |path| (path, self.lighting.eye_ray(&self.view, sample.at(path)));
-        scratch.outside.clear();
-        scratch.outside.extend(paths.map(start));
-        scratch.within.clear();
-        while !(scratch.outside.is_empty() && scratch.within.is_empty()) {
-            scratch.lit.clear();
-            let waves = [
-                (RayQuery::FirstHit, std::mem::take(&mut scratch.outside)),
-                (RayQuery::Exit, std::mem::take(&mut scratch.within)),
-            ];
-            for (query, sent) in waves {
-                self.meet_surfaces(query, &sent, sample, scratch);
-            }
+        self.meet_first_surfaces(sample, scratch);
+        loop {
             self.light_surfaces(sample, scratch);
-            let Scratch { paths, lit, outside, within, .. } = scratch;
-            for (index, ray) in lit {
-                let path = &mut paths[*index as usize];
-                go_on(*index, self.lighting.onward(path, ray.direction), outside, within);
+            self.leave_surfaces(scratch);
+            let Scratch { outside, within, .. } = scratch;
+            if outside.is_empty() && within.is_empty() {
+                break;
+            }
+            let waves = [(RayQuery::FirstHit, take(outside)), (RayQuery::Exit, take(within))];
+            for (query, sent) in waves {
+                let Scratch { wave, tracer, .. } = scratch;
+                wave.send(&sent);
+                wave.answer_by_direction(self.tracer, query, tracer);
+                self.meet_surfaces(&sent, sample, scratch);
             }
         }
         let undecided = scratch.paths.iter().map(|path| u64::from(path.undecided));
         scratch.rays.undecided += undecided.sum::<u64>();
     }
 
-    /// Answers the paths' own rays.
+    /// Begins the paths at the eye.
+    fn meet_first_surfaces(&self, sample: Sample<'_>, scratch: &mut Scratch<T::Scratch>) {
+        let paths = 0..sample.pixels.len() as u32;
+        let Scratch { tracer, paths: begun, wave, lit, .. } = scratch;
+        begun.clear();
+        begun.resize(paths.len(), Path::START);
+        lit.clear();
+        let sent: Vec<_> = paths.map(|path| (path, self.eye_ray(sample.at(path)))).collect();
+        wave.send(&sent);
+        match sample.first_hits {
+            Some(first_hits) => wave.take(first_hits),
+            None => wave.answer(self.tracer, RayQuery::FirstHit, tracer),
+        }
+        self.meet_surfaces(&sent, sample, scratch);
+    }
+
+    /// Sends the paths' next rays.
+    fn leave_surfaces(&self, scratch: &mut Scratch<T::Scratch>) {
+        let Scratch { paths, lit, outside, within, .. } = scratch;
+        for (index, ray) in lit.drain(..) {
+            let path = &mut paths[index as usize];
+            go_on(index, self.lighting.onward(path, ray.direction), outside, within);
+        }
+    }
+
+    /// Takes the answers to the paths' own rays.
     fn meet_surfaces(
         &self,
-        query: RayQuery,
         sent: &[(u32, Ray)],
         sample: Sample<'_>,
         scratch: &mut Scratch<T::Scratch>,
     ) {
-        let Scratch { tracer, paths, wave, outside, within, lit, rays, .. } = scratch;
+        let Scratch { paths, wave, outside, within, lit, rays, .. } = scratch;
         rays.paths += sent.len() as u64;
-        wave.clear();
-        wave.rays.extend(sent.iter().map(|(_, ray)| ray));
-        if paths.iter().all(|path| path.bounces == 0) {
-            wave.answer(self.tracer, query, tracer);
-        } else {
-            wave.answer_by_direction(self.tracer, query, tracer);
-        }
         for ((index, ray), found) in sent.iter().zip(&wave.answers) {
             let path = &mut paths[*index as usize];
-            let read = || (self.tracer.clearance(ray, found), self.color(ray, found));
-            if !self.lighting.meet(path, ray, found, read) {
+            let clearance = || self.tracer.clearance(ray, found);
+            if !self.lighting.meet(path, ray, found, clearance, || self.color(ray, found)) {
                 continue;
             }
             if !self.lighting.is_clear(path) {

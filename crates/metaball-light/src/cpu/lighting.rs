@@ -23,4 +23,9 @@ impl Lighting {
             transparency: effects.transparency(),
         }
     }
+
+    /// Whether the only path of a pixel begins through its middle.
+    pub(super) fn has_one_sample(&self) -> bool {
+        self.settings.samples == 1
+    }
 }

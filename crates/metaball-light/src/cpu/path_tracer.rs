@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use glam::Vec3;
-use metaball_core::{HostTracer, Ray, RayQuery, Scene, SurfaceColors, SurfaceHit, View};
+use metaball_core::{
+    HostTracer, PixelDirections, Ray, RayQuery, Scene, SurfaceColors, SurfaceHit, View,
+};
 use rayon::prelude::*;
 
 use super::follow::{Rays, Sample, Scratch};
@@ -15,7 +17,8 @@ use crate::{Effects, UnansweredError};
 #[derive(Debug)]
 pub struct PathTracer<'a, T> {
     pub(super) tracer: &'a T,
-    pub(super) view: View,
+    view: View,
+    directions: PixelDirections,
     pub(super) lighting: Lighting,
     colors: SurfaceColors<'a>,
     samples: u32,
@@ -58,53 +61,102 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
             return Err(UnansweredError { query });
         }
         let lighting = Lighting::new(effects, samples, seed);
-        let colors = SurfaceColors::new(scene);
-        Ok(Self { tracer, view: view.clone(), lighting, colors, samples })
+        let (colors, directions) = (SurfaceColors::new(scene), view.directions());
+        Ok(Self { tracer, view: view.clone(), directions, lighting, colors, samples })
     }
 
     /// The light of some of the view's rows, on rayon's current pool.
     pub fn rows(&self, rows: Range<u32>) -> Rows {
-        let (first, width) = (rows.start, self.view.width() as usize);
-        let mut light = vec![Vec3::ZERO; width * rows.len()];
-        let mut rays = Rays::default();
-        let tiles: Vec<_> = (rows.clone().step_by(TILE as usize))
-            .flat_map(|top| {
-                (0..self.view.width()).step_by(TILE as usize).map(move |left| (left, top))
-            })
-            .collect();
-        let drawn: Vec<_> = tiles
-            .into_par_iter()
-            .map_init(
-                || Scratch::new(self.tracer.scratch()),
-                |scratch, corner| self.tile(corner, rows.end, scratch),
-            )
-            .collect();
-        for (pixels, sums, tile_rays) in drawn {
-            rays = rays + tile_rays;
-            for (pixel, sum) in pixels.into_iter().zip(sums) {
-                light[pixel as usize - first as usize * width] = sum / self.samples as f32;
-            }
-        }
-        Rows { light, rays }
+        self.light(rows, None)
+    }
+
+    /// The same where these rows' [first hits](PathTracer::first_hits) are known: with a single sample
+    /// its paths begin there.
+    ///
+    /// # Panics
+    /// When there are not as many hits as pixels.
+    pub fn rows_behind(&self, rows: Range<u32>, first_hits: &[SurfaceHit]) -> Rows {
+        assert_eq!(first_hits.len(), self.pixels_of(&rows).len(), "a hit a pixel");
+        self.light(rows, Some(first_hits).filter(|_| self.lighting.has_one_sample()))
+    }
+
+    /// What the rays through the middles of pixels find, row by row from the left, on rayon's current
+    /// pool.
+    pub fn first_hits(&self, rows: Range<u32>) -> Vec<SurfaceHit> {
+        let middle =
+            |&pixel: &u32| Ray::new(self.view.camera().eye(), self.directions.through(pixel));
+        let (hits, _) = self.in_tiles(rows, SurfaceHit::MISS, |pixels, scratch| {
+            let rays = pixels.iter().map(middle);
+            (scratch.first_hits(self.tracer, rays).to_vec(), Rays::default())
+        });
+        hits
     }
 
     /// The light of some pixels, named by their indices row by row: the mean of all samples. As many
     /// as a tile's are followed together, on rayon's current pool.
     pub fn pixels(&self, pixels: &[u32]) -> Vec<Vec3> {
-        let sums = pixels.par_chunks((TILE * TILE) as usize).map_init(
+        let means = pixels.par_chunks((TILE * TILE) as usize).map_init(
             || Scratch::new(self.tracer.scratch()),
-            |scratch, pixels| self.sums(pixels, scratch),
+            |scratch, pixels| self.means(pixels, None, scratch),
         );
-        sums.flatten().map(|sum| sum / self.samples as f32).collect()
+        means.flatten().collect()
     }
 
-    /// Pixels of a tile, and the sums of their samples.
-    fn tile(
+    fn light(&self, rows: Range<u32>, first_hits: Option<&[SurfaceHit]>) -> Rows {
+        let first = self.pixels_of(&rows).start;
+        let (light, rays) = self.in_tiles(rows, Vec3::ZERO, |pixels, scratch| {
+            let of_tile = |hits: &[SurfaceHit]| -> Vec<_> {
+                pixels.iter().map(|&pixel| hits[pixel as usize - first]).collect()
+            };
+            scratch.rays = Rays::default();
+            let means = self.means(pixels, first_hits.map(of_tile).as_deref(), scratch);
+            (means, scratch.rays)
+        });
+        Rows { light, rays }
+    }
+
+    /// Indices of the pixels of some rows.
+    fn pixels_of(&self, rows: &Range<u32>) -> Range<usize> {
+        let width = self.view.width() as usize;
+        rows.start as usize * width..rows.end as usize * width
+    }
+
+    /// What `draw` makes of the pixels of each tile, row by row, and the sum of the rays that it took.
+    fn in_tiles<P: Copy + Send>(
         &self,
-        (left, top): (u32, u32),
-        end: u32,
-        scratch: &mut Scratch<T::Scratch>,
-    ) -> (Vec<u32>, Vec<Vec3>, Rays) {
+        rows: Range<u32>,
+        blank: P,
+        draw: impl Fn(&[u32], &mut Scratch<T::Scratch>) -> (Vec<P>, Rays) + Sync,
+    ) -> (Vec<P>, Rays) {
+        let corners: Vec<_> = (rows.clone().step_by(TILE as usize))
+            .flat_map(|top| {
+                (0..self.view.width()).step_by(TILE as usize).map(move |left| (left, top))
+            })
+            .collect();
+        let drawn: Vec<_> = corners
+            .into_par_iter()
+            .map_init(
+                || Scratch::new(self.tracer.scratch()),
+                |scratch, corner| {
+                    let pixels = self.tile(corner, rows.end);
+                    let (values, rays) = draw(&pixels, scratch);
+                    (pixels, values, rays)
+                },
+            )
+            .collect();
+        let range = self.pixels_of(&rows);
+        let (mut all, mut rays) = (vec![blank; range.len()], Rays::default());
+        for (pixels, values, tile_rays) in drawn {
+            rays = rays + tile_rays;
+            for (pixel, value) in pixels.into_iter().zip(values) {
+                all[pixel as usize - range.start] = value;
+            }
+        }
+        (all, rays)
+    }
+
+    /// Pixels of a tile, block by block.
+    fn tile(&self, (left, top): (u32, u32), end: u32) -> Vec<u32> {
         let width = self.view.width();
         let (right, bottom) = ((left + TILE).min(width), (top + TILE).min(end));
         let mut pixels = Vec::with_capacity((TILE * TILE) as usize);
@@ -116,21 +168,30 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
                 }
             }
         }
-        scratch.rays = Rays::default();
-        let sums = self.sums(&pixels, scratch);
-        (pixels, sums, scratch.rays)
+        pixels
     }
 
-    /// The sums of the samples of some pixels.
-    fn sums(&self, pixels: &[u32], scratch: &mut Scratch<T::Scratch>) -> Vec<Vec3> {
-        let mut sums = vec![Vec3::ZERO; pixels.len()];
+    /// The means of all samples of some pixels.
+    fn means(
+        &self,
+        pixels: &[u32],
+        first_hits: Option<&[SurfaceHit]>,
+        scratch: &mut Scratch<T::Scratch>,
+    ) -> Vec<Vec3> {
+        let mut means = vec![Vec3::ZERO; pixels.len()];
         for index in 0..self.samples {
-            self.follow(Sample { pixels, index }, scratch);
-            for (sum, path) in sums.iter_mut().zip(&scratch.paths) {
+            self.follow(Sample { pixels, index, first_hits }, scratch);
+            for (sum, path) in means.iter_mut().zip(&scratch.paths) {
                 *sum += path.radiance;
             }
         }
-        sums
+        means.iter_mut().for_each(|mean| *mean /= self.samples as f32);
+        means
+    }
+
+    /// The ray of a pixel's sample.
+    pub(super) fn eye_ray(&self, (pixel, sample): (u32, u32)) -> Ray {
+        self.lighting.eye_ray(&self.view, self.directions.through(pixel), (pixel, sample))
     }
 
     /// The surface's own colour in linear light.

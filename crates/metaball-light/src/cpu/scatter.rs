@@ -24,6 +24,11 @@ impl Lighting {
         }
     }
 
+    /// Whether surfaces send shadow or occlusion rays.
+    pub(super) fn sends_shadow_rays(&self) -> bool {
+        self.settings.shadows != 0 || self.settings.occlusion_rays > 0
+    }
+
     /// Every shadow and occlusion ray of a surface point, in the order in which their light is added.
     pub(super) fn sent<'a>(
         &'a self,

@@ -9,14 +9,15 @@ use super::lighting::Lighting;
 use crate::path::{OUTSIDE, Path, WITHIN};
 
 impl Lighting {
-    /// Takes the answer to a path's own ray. `read` gives clearance and colour of a hit. False where the
+    /// Takes the answer to a path's own ray. `clearance` and `color` read those of a hit. False where the
     /// path has ended in the surroundings.
     pub(super) fn meet(
         &self,
         path: &mut Path,
         ray: &Ray,
         found: &SurfaceHit,
-        read: impl FnOnce() -> (f32, Vec3),
+        clearance: impl FnOnce() -> f32,
+        color: impl FnOnce() -> Vec3,
     ) -> bool {
         let hit = found.hit.most_likely();
         // A ray that starts beyond the surface that it seeks has met it; so has an eye in the solid.
@@ -41,7 +42,10 @@ impl Lighting {
             path.throughput *= share;
         } else if is_met {
             path.normal = hit.normal;
-            (path.clearance, path.base) = read();
+            path.base = color();
+            if self.is_left(path) {
+                path.clearance = clearance();
+            }
             let is_beyond = hit.verdict == Verdict::Inside;
             path.undecided += u32::from(is_beyond && path.bounces > 0 && path.stage == OUTSIDE);
         } else {
@@ -49,5 +53,10 @@ impl Lighting {
             return false;
         }
         true
+    }
+
+    /// Whether rays may start at the path's surface.
+    fn is_left(&self, path: &Path) -> bool {
+        self.sends_shadow_rays() || path.bounces < self.settings.bounces
     }
 }

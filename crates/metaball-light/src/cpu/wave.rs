@@ -22,6 +22,18 @@ impl Wave {
         self.rays.clear();
     }
 
+    /// Begins a wave of paths' rays.
+    pub(super) fn send(&mut self, sent: &[(u32, Ray)]) {
+        self.rays.clear();
+        self.rays.extend(sent.iter().map(|(_, ray)| ray));
+    }
+
+    /// Takes answers that are known.
+    pub(super) fn take(&mut self, answers: &[SurfaceHit]) {
+        self.answers.clear();
+        self.answers.extend_from_slice(answers);
+    }
+
     /// Answers rays that are neighbours as they are, such as those from the eye.
     pub(super) fn answer<T: HostTracer>(
         &mut self,
