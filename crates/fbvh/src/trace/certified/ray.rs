@@ -15,13 +15,21 @@ use crate::trace::slabs::Slabs;
 /// What searches of leaves share, for its memory.
 pub(in crate::trace) struct Scratch {
     pub(super) arch: Arch,
-    blocks: Blocks,
+    /// Leaves that have been loaded, each at its number's remainder.
+    leaves: Vec<Blocks>,
     chords: Chords,
 }
 
 impl Scratch {
     pub(in crate::trace) fn new() -> Self {
-        Self { arch: Arch::new(), blocks: Blocks::default(), chords: Chords::default() }
+        Self::with_leaves(1)
+    }
+
+    /// That keeps so many leaves loaded, for rays that meet the same ones.
+    pub(super) fn with_leaves(count: usize) -> Self {
+        let mut leaves = Vec::new();
+        leaves.resize_with(count, Blocks::default);
+        Self { arch: Arch::new(), leaves, chords: Chords::default() }
     }
 }
 
@@ -182,7 +190,9 @@ impl<F: Field> FieldTree<'_, F> {
             let verdict = if t > ray.t_min { Verdict::Hit } else { Verdict::Inside };
             return Some(self.hit_at(verdict, leaf, ray, t));
         }
-        let Scratch { arch, blocks, .. } = scratch;
+        let Scratch { arch, leaves, .. } = scratch;
+        let place = leaf % leaves.len();
+        let blocks = &mut leaves[place];
         blocks.load(self.field, leaf, &bounds, list);
         match polynomial::search(query, *arch, blocks, (ray, interval), counter) {
             Answer::Undecided => self.search_ranges(query, leaf, interval, state, scratch, counter),
