@@ -40,7 +40,7 @@ impl Lighting {
             let along = (cosine - ratio * onward_cosine) / (cosine + ratio * onward_cosine);
             mirrored = 0.5 * (across * across + along * along);
         }
-        let choice = self.point(path, pixel, Purpose::Choice, sample).x;
+        let choice = self.points(path, pixel, Purpose::Choice).nth(sample).x;
         let is_mirrored = choice < mirrored;
         let onward =
             if is_mirrored { direction.reflect(facing) } else { direction.refract(facing, ratio) };

@@ -4,7 +4,7 @@ use glam::Vec3;
 use metaball_core::{NO_LIMIT, Ray};
 
 use super::lighting::Lighting;
-use super::sampling::{around, on_disc};
+use super::sampling::{Frame, on_disc};
 use super::secondary::Purpose;
 use crate::path::Path;
 
@@ -30,8 +30,8 @@ impl Lighting {
         let mut toward = lamps[lamp].toward;
         if lamps[lamp].size > 0.0 {
             let number = sample.wrapping_mul(lamps.len() as u32).wrapping_add(lamp as u32);
-            let square = self.point(path, pixel, Purpose::Lamp, number);
-            toward = around(toward, lamps[lamp].size * on_disc(square));
+            let square = self.points(path, pixel, Purpose::Lamp).nth(number);
+            toward = Frame::around(toward).over(lamps[lamp].size * on_disc(square));
         }
         let ray = path.send(toward, NO_LIMIT)?;
         let share = self.own_share(path, direction);

@@ -4,7 +4,7 @@ use glam::Vec3;
 use metaball_core::Ray;
 
 use super::lighting::Lighting;
-use super::sampling::{around, on_disc};
+use super::sampling::{Frame, on_disc};
 use super::secondary::Purpose;
 use crate::path::Path;
 
@@ -15,17 +15,18 @@ impl Lighting {
         path.radiance += self.own_share(path, direction) * path.base * light;
     }
 
-    /// One of the surface's occlusion rays, distributed by Lambert's cosine; none where it does not leave
-    /// the surface.
-    pub(super) fn occlusion_ray(
+    /// The surface's occlusion rays, distributed by Lambert's cosine, but for those that do not leave it.
+    pub(super) fn occlusion_rays<'a>(
         &self,
-        path: &Path,
+        path: &'a Path,
         (pixel, sample): (u32, u32),
-        ray: u32,
-    ) -> Option<Ray> {
-        let number = sample.wrapping_mul(self.settings.occlusion_rays).wrapping_add(ray);
-        let square = self.point(path, pixel, Purpose::Sky, number);
-        path.send(around(path.normal, on_disc(square)), self.settings.occlusion_reach)
+    ) -> impl Iterator<Item = Ray> + use<'a> {
+        let (rays, reach) = (self.settings.occlusion_rays, self.settings.occlusion_reach);
+        let (points, frame) = (self.points(path, pixel, Purpose::Sky), Frame::around(path.normal));
+        (0..rays).filter_map(move |ray| {
+            let square = points.nth(sample.wrapping_mul(rays).wrapping_add(ray));
+            path.send(frame.over(on_disc(square)), reach)
+        })
     }
 
     /// The light that an occlusion ray brings if it hits nothing.

@@ -28,8 +28,10 @@ fn log2(x: f32) -> f32 {
 
 /// 2^x for x from −126 to 0: its whole part is an exponent, the rest Taylor's series.
 fn exp2(x: f32) -> f32 {
-    let whole = x.round().max(-126.0);
-    let rest = (x.max(-126.0) - whole) * std::f32::consts::LN_2;
+    // Truncation rounds a negative number, less a half, to the nearest.
+    let x = x.max(-126.0);
+    let whole = (x - 0.5) as i32;
+    let rest = (x - whole as f32) * std::f32::consts::LN_2;
     let series = 1.0
         + rest
             * (1.0
@@ -38,7 +40,7 @@ fn exp2(x: f32) -> f32 {
                         + rest
                             * (1.0 / 6.0
                                 + rest * (1.0 / 24.0 + rest * (1.0 / 120.0 + rest / 720.0)))));
-    series * f32::from_bits(((whole as i32 + 127) as u32) << 23)
+    series * f32::from_bits(((whole + 127) as u32) << 23)
 }
 
 #[cfg(test)]

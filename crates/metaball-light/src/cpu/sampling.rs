@@ -8,25 +8,37 @@ use glam::{Vec2, Vec3};
 /// The fractions 1/p and 1/p², p³ = p + 1, of 2³².
 const STEPS: [u32; 2] = [3_242_174_889, 2_447_445_414];
 
-/// Number `index` of a pixel's points in the unit square, for one purpose.
-pub(super) fn point_in_square(seed: u32, pixel: u32, purpose: u32, index: u32) -> Vec2 {
-    nth_point(hash(hash(pixel ^ hash(purpose)) ^ seed), index)
+/// Points in the unit square.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Points {
+    shifts: [u32; 2],
+}
+
+impl Points {
+    /// Those of a pixel, for one purpose.
+    pub(super) fn new(seed: u32, pixel: u32, purpose: u32) -> Self {
+        Self::shifted(hash(hash(pixel ^ hash(purpose)) ^ seed))
+    }
+
+    fn shifted(shift_x: u32) -> Self {
+        Self { shifts: [shift_x, hash(shift_x)] }
+    }
+
+    pub(super) fn nth(self, index: u32) -> Vec2 {
+        // The sum wraps as a fraction should.
+        let fraction =
+            |axis: usize| self.shifts[axis].wrapping_add(index.wrapping_mul(STEPS[axis]));
+        let number = |axis| (fraction(axis) >> 8) as f32 / (1u32 << 24) as f32;
+        Vec2::new(number(0), number(1))
+    }
 }
 
 /// How far sample `index` of a picture is moved, in pixels to the right and up, where all pixels share
 /// one shift: from −1 to 1 each, with the density of a tent.
 #[cfg(feature = "gpu")]
 pub(crate) fn shift(index: u32, seed: u32) -> Vec2 {
-    let point = nth_point(hash(seed), index);
+    let point = Points::shifted(hash(seed)).nth(index);
     Vec2::new(tent(point.x), tent(point.y))
-}
-
-fn nth_point(shift_x: u32, index: u32) -> Vec2 {
-    let shifts = [shift_x, hash(shift_x)];
-    // The sum wraps as a fraction should.
-    let fraction = |axis: usize| shifts[axis].wrapping_add(index.wrapping_mul(STEPS[axis]));
-    let number = |axis| (fraction(axis) >> 8) as f32 / (1u32 << 24) as f32;
-    Vec2::new(number(0), number(1))
 }
 
 /// PCG's output function (Jarzynski and Olano 2020).
@@ -56,16 +68,27 @@ pub(super) fn on_disc(square: Vec2) -> Vec2 {
     radius * Vec2::new(cosine, sine)
 }
 
-/// The unit vector over a point of the unit disc, in a frame whose third axis is `axis` (Duff et al.
-/// 2017).
-pub(super) fn around(axis: Vec3, disc: Vec2) -> Vec3 {
-    let height = (1.0 - disc.length_squared()).max(0.0).sqrt();
-    let side = if axis.z >= 0.0 { 1.0 } else { -1.0 };
-    let a = -1.0 / (side + axis.z);
-    let b = axis.x * axis.y * a;
-    let first = Vec3::new(1.0 + side * axis.x * axis.x * a, side * b, -side * axis.x);
-    let second = Vec3::new(b, side + axis.y * axis.y * a, -axis.y);
-    (disc.x * first + disc.y * second + height * axis).normalize()
+/// Three perpendicular unit vectors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame([Vec3; 3]);
+
+impl Frame {
+    /// One whose third vector is `axis` (Duff et al. 2017).
+    pub(super) fn around(axis: Vec3) -> Self {
+        let side = if axis.z >= 0.0 { 1.0 } else { -1.0 };
+        let a = -1.0 / (side + axis.z);
+        let b = axis.x * axis.y * a;
+        let first = Vec3::new(1.0 + side * axis.x * axis.x * a, side * b, -side * axis.x);
+        let second = Vec3::new(b, side + axis.y * axis.y * a, -axis.y);
+        Self([first, second, axis])
+    }
+
+    /// The unit vector over a point of the unit disc.
+    pub(super) fn over(self, disc: Vec2) -> Vec3 {
+        let [first, second, axis] = self.0;
+        let height = (1.0 - disc.length_squared()).max(0.0).sqrt();
+        (disc.x * first + disc.y * second + height * axis).normalize()
+    }
 }
 
 #[cfg(test)]
@@ -87,8 +110,9 @@ mod tests {
     #[test]
     fn directions_around_an_axis_are_as_lambert_weighs_them() {
         let axis = Vec3::new(0.48, -0.6, -0.64);
+        let (frame, points) = (Frame::around(axis), Points::new(3, 7, 2));
         let directions: Vec<_> =
-            (0..1024).map(|index| around(axis, on_disc(point_in_square(3, 7, 2, index)))).collect();
+            (0..1024).map(|index| frame.over(on_disc(points.nth(index)))).collect();
         assert!(directions.iter().all(|toward| (toward.length() - 1.0).abs() < 1e-6));
         // The mean of the cosine under its own density is 2/3, and sideways there is no preference.
         let mean = directions.iter().sum::<Vec3>() / 1024.0;

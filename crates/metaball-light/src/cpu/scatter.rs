@@ -41,8 +41,7 @@ impl Lighting {
             let (ray, light) = self.shadow_ray(path, at, direction, lamp)?;
             Some(Sent::Shadow(ray, light))
         };
-        let occlusion = move |ray| self.occlusion_ray(path, at, ray).map(Sent::Occlusion);
-        let occlusion = (0..self.settings.occlusion_rays).filter_map(occlusion);
+        let occlusion = self.occlusion_rays(path, at).map(Sent::Occlusion);
         (0..to_lamps).filter_map(shadow).chain(occlusion)
     }
 

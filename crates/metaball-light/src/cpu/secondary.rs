@@ -1,10 +1,10 @@
 //! Secondary rays: where they start, and for which purposes they take random numbers.
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use metaball_core::Ray;
 
 use super::lighting::Lighting;
-use super::sampling::point_in_square;
+use super::sampling::Points;
 use crate::path::Path;
 
 /// Why a path takes random numbers; each of its surfaces has its own. 0 is the point in the pixel.
@@ -17,10 +17,10 @@ pub(super) enum Purpose {
 }
 
 impl Lighting {
-    /// Number `index` of a path's points in the unit square, at its surface and for a purpose.
-    pub(super) fn point(&self, path: &Path, pixel: u32, purpose: Purpose, index: u32) -> Vec2 {
+    /// A path's points in the unit square, at its surface and for a purpose.
+    pub(super) fn points(&self, path: &Path, pixel: u32, purpose: Purpose) -> Points {
         let purpose = 4u32.wrapping_mul(path.bounces) + purpose as u32;
-        point_in_square(self.settings.seed, pixel, purpose, index)
+        Points::new(self.settings.seed, pixel, purpose)
     }
 }
 

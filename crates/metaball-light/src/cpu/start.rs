@@ -4,7 +4,7 @@ use glam::Vec3;
 use metaball_core::{Ray, View};
 
 use super::lighting::Lighting;
-use super::sampling::{point_in_square, tent};
+use super::sampling::{Points, tent};
 
 impl Lighting {
     /// In direction `middle`, through the pixel's middle, when there is one sample; else through points
@@ -14,7 +14,7 @@ impl Lighting {
         if self.has_one_sample() {
             return Ray::new(camera.eye(), middle);
         }
-        let square = point_in_square(self.settings.seed, pixel, 0, sample);
+        let square = Points::new(self.settings.seed, pixel, 0).nth(sample);
         let pixel_height = 2.0 * camera.half_height() / view.height() as f32;
         let (right, up) = (pixel_height * tent(square.x), pixel_height * tent(square.y));
         // The picture lies at unit distance along `forward`.

@@ -7,6 +7,8 @@ use metaball_core::{HostTracer, Ray, RayQuery, SurfaceHit};
 pub(super) struct Wave {
     pub(super) rays: Vec<Ray>,
     pub(super) answers: Vec<SurfaceHit>,
+    /// For each ray, the cell of its direction.
+    cells: Vec<u8>,
     /// For each ray in the order of directions: its index.
     order: Vec<u32>,
     sorted: Vec<Ray>,
@@ -16,6 +18,7 @@ pub(super) struct Wave {
 /// Directions in cells: eight octants, each of a square of so many by so many.
 const ACROSS: usize = 4;
 const CELLS: usize = 8 * ACROSS * ACROSS;
+const _: () = assert!(CELLS <= 1 << u8::BITS, "a cell is a byte");
 
 impl Wave {
     pub(super) fn clear(&mut self) {
@@ -63,16 +66,18 @@ impl Wave {
 
     /// By counting, which keeps the order of rays in a cell: they begin near each other.
     fn sort(&mut self) {
+        self.cells.clear();
+        self.cells.extend(self.rays.iter().map(cell));
         let mut next = [0u32; CELLS + 1];
-        for ray in &self.rays {
-            next[cell(ray) + 1] += 1;
+        for &cell in &self.cells {
+            next[usize::from(cell) + 1] += 1;
         }
         for index in 0..CELLS {
             next[index + 1] += next[index];
         }
         self.order.resize(self.rays.len(), 0);
-        for (index, ray) in (0..).zip(&self.rays) {
-            let slot = &mut next[cell(ray)];
+        for (index, &cell) in (0..).zip(&self.cells) {
+            let slot = &mut next[usize::from(cell)];
             self.order[*slot as usize] = index;
             *slot += 1;
         }
@@ -82,13 +87,13 @@ impl Wave {
 }
 
 /// The cell of a ray's direction on the octahedron.
-fn cell(ray: &Ray) -> usize {
+fn cell(ray: &Ray) -> u8 {
     let direction = ray.direction;
     let octant =
         (0..3).fold(0, |octant, axis| 2 * octant + usize::from(direction[axis].is_sign_negative()));
     let size = direction.abs();
     let along = |x: f32| ((x / size.element_sum() * ACROSS as f32) as usize).min(ACROSS - 1);
-    (octant * ACROSS + along(size.x)) * ACROSS + along(size.y)
+    ((octant * ACROSS + along(size.x)) * ACROSS + along(size.y)) as u8
 }
 
 #[cfg(test)]
