@@ -16,6 +16,7 @@ use metaball_core::{Aabb, Ray, SurfaceHit};
 use pulp::{Simd, WithSimd};
 
 use self::balls::Balls;
+use self::leaf::Found;
 use self::rays::{ExactPacket, Packet, is_negative};
 use super::lanes::{WIDTH, lanes_of};
 use super::query::{Answer, Query};
@@ -204,12 +205,18 @@ impl<F: Field> Traversal<'_, F> {
         let PacketScratch { single, leaves } = &mut *self.scratch;
         let balls = &mut leaves[leaf % LOADED];
         balls.load(field, leaf, &bounds, list);
-        let answers =
-            leaf::search(self.query, single.arch, balls, (packet, exact), interval, lanes);
-        self.each(lanes, |traversal, lane| match answers[lane] {
-            Answer::Undecided => traversal.visit_alone(leaf, lane),
-            answer => traversal.tree.hit_of(answer, leaf, &traversal.rays[lane]),
+        let Found { nothing, somewhere, roots } =
+            leaf::search(self.query, single.arch, balls, (packet, exact), &interval, lanes);
+        let (nothing, somewhere) = (nothing.bits(), somewhere.bits());
+        self.each(somewhere, |traversal, lane| {
+            traversal.tree.hit_of(Answer::Somewhere, leaf, &traversal.rays[lane])
         });
+        self.each(roots.lanes, |traversal, lane| {
+            let (t, gradient) = roots.roots[lane];
+            traversal.tree.hit_of(Answer::Root(t, gradient), leaf, &traversal.rays[lane])
+        });
+        let undecided = lanes & !(nothing | somewhere | roots.lanes);
+        self.each(undecided, |traversal, lane| traversal.visit_alone(leaf, lane));
     }
 
     /// Searches a leaf on one ray.

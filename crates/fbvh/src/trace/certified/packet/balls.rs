@@ -2,7 +2,7 @@
 
 use metaball_core::Aabb;
 
-use super::super::lanes::{Lanes, WIDTH, array_of, lanes_of};
+use super::super::lanes::{Lanes, Mask, WIDTH, array_of};
 use super::super::parabolas::{Parabolas, UNIT};
 use super::rays::{ExactPacket, Packet, length_squared};
 use crate::Field;
@@ -26,7 +26,7 @@ pub(super) struct Ball {
 
 /// Eight balls, for culling those that a packet misses.
 #[derive(Debug, Clone)]
-struct Block {
+pub(super) struct Block {
     center: [Lanes<f32>; 3],
     /// The radius and what rounding can add.
     radius: Lanes<f32>,
@@ -40,7 +40,7 @@ pub(super) struct Balls {
     leaf: Option<usize>,
     middle: [f64; 3],
     pub(super) balls: Vec<Ball>,
-    blocks: Vec<Block>,
+    pub(super) blocks: Vec<Block>,
     /// The balls that reach a ray's interval, and each along the rays.
     pub(super) kept: Vec<u32>,
     pub(super) parabolas: Vec<Parabolas>,
@@ -57,6 +57,15 @@ pub(super) struct RelativePacket {
     /// rounds between the eye and the origins.
     pub(super) reach: Lanes<f32>,
 }
+
+/// A ball around the rays' intervals in a leaf, about the middle of one of them; relative to the middle of
+/// the leaf's box, and larger by what rounding can add.
+pub(super) struct Surroundings {
+    center: [Lanes<f32>; 3],
+    radius: f32,
+}
+
+const ZERO: Lanes<f32> = Lanes([0.0; WIDTH]);
 
 /// More than all that f32 rounds of distances, per distance from the leaf's middle.
 const ROUNDED: f32 = 64.0 * UNIT;
@@ -102,53 +111,13 @@ impl Balls {
         }));
     }
 
-    /// Lists the balls that may reach an interval. They are found along the interval of the ray in
-    /// `lane`, within the radius plus the spread of the packet: a point of another ray's interval is no
-    /// farther from its counterpart there than the ends of the two intervals are.
-    #[inline(always)]
-    pub(super) fn cull(&mut self, packet: &Packet, relative: &RelativePacket, lane: usize) {
-        let zero = Lanes::splat(0.0f32);
-        let (mut start, mut end) = (zero, zero);
-        let (mut from, mut span) = ([zero; 3], [zero; 3]);
-        for axis in 0..3 {
-            let origin = relative.origin[axis].map(|x| x as f32);
-            let half_span = packet.direction[axis] * relative.half;
-            let (near, far) = (origin - half_span, origin + half_span);
-            from[axis] = Lanes::splat(near.0[lane]);
-            span[axis] = Lanes::splat(far.0[lane] - near.0[lane]);
-            let (near, far) = (near - from[axis], far - Lanes::splat(far.0[lane]));
-            start += near * near;
-            end += far * far;
-        }
-        let spread = start.max(end).sqrt() + relative.reach * ROUNDED;
-        let square = length_squared(span);
-        // Where f32 overflows no ball is culled.
-        let is_finite = (spread + square).0.iter().all(|number| number.is_finite());
-        let widest = spread.0.into_iter().fold(0.0f32, f32::max);
-        let spread = if is_finite { widest } else { f32::INFINITY };
-        let inverse = square.map(|square| 1.0 / square.max(f32::MIN_POSITIVE));
-        self.kept.clear();
-        for (at, block) in self.blocks.iter().enumerate() {
-            let [x, y, z] = block.center;
-            let (x, y, z) = (x - from[0], y - from[1], z - from[2]);
-            let t = (x * span[0] + y * span[1] + z * span[2]) * inverse;
-            let t = t.min(Lanes::splat(1.0)).max(zero);
-            let distance = length_squared([x - span[0] * t, y - span[1] * t, z - span[2] * t]);
-            let reach = block.radius.map(|radius| radius + spread);
-            let near = block.balls & !(reach * reach).is_less(distance).bits();
-            self.kept.extend(lanes_of(near).map(|lane| (WIDTH * at + lane) as u32));
-        }
-    }
-
-    /// Moves the rays' origins to the middles of their intervals, in f64. All other lanes than those
-    /// given repeat one of them.
+    /// Moves the rays' origins to the middles of their intervals, in f64.
     #[inline(always)]
     pub(super) fn relative(
         &self,
         packet: &Packet,
         exact: &ExactPacket,
         (start, end): (Lanes<f64>, Lanes<f64>),
-        lanes: u32,
     ) -> RelativePacket {
         // Rounded up, as for a single ray.
         let half = ((end - start) * 0.5).map(|half| {
@@ -166,14 +135,69 @@ impl Balls {
         let far = exact.distance + Lanes::splat(middle) + base.map(|base| base.abs() as f32);
         let far = far * (4.0 * f64::EPSILON / f64::from(UNIT)) as f32;
         let reach = (distance * 2.0 + half * exact.length + far) * 1.000_01;
-        let mut relative = RelativePacket { origin, base, half, reach };
-        let first = lanes.trailing_zeros() as usize;
-        for lane in lanes_of(!lanes) {
-            relative.origin.iter_mut().for_each(|numbers| numbers.0[lane] = numbers.0[first]);
-            relative.base.0[lane] = relative.base.0[first];
-            relative.half.0[lane] = relative.half.0[first];
-            relative.reach.0[lane] = relative.reach.0[first];
-        }
-        relative
+        RelativePacket { origin, base, half, reach }
+    }
+}
+
+impl Ball {
+    /// The ball along the rays, and the projections of its centre, in lengths of the directions times
+    /// scene units.
+    ///
+    /// # Rounding
+    /// As for a single ray (`project` of `trace/certified/polynomial/blocks.rs`): ρ + λ + ω is at most
+    /// the distance of the ball's centre from the leaf's middle plus `reach`, in radii. The projection,
+    /// where v is largest, is misplaced by a few u(ρ + λ + ω)R, which changes v by the square of that.
+    #[inline(always)]
+    pub(super) fn along(
+        &self,
+        packet: &Packet,
+        exact: &ExactPacket,
+        relative: &RelativePacket,
+    ) -> (Parabolas, Lanes<f32>) {
+        const MARGIN: f32 = 16.0 * UNIT;
+        let offset =
+            |axis: usize| Lanes::splat(self.center[axis]) - relative.origin[axis].map(|x| x as f32);
+        let (x, y, z) = (offset(0), offset(1), offset(2));
+        let [dx, dy, dz] = packet.direction;
+        let along = x * dx + y * dy + z * dz;
+        let distance = (x * x + y * y + z * z) * self.inverse_square_f32;
+        let reaches = (relative.reach * self.inverse_radius).map(|reach| self.distance + reach);
+        let margin = (reaches * reaches).map(|x| MARGIN * (1.0 + x));
+        let parabola = Parabolas {
+            constant: distance.map(|x| 1.0 - x),
+            linear: along * (2.0 * self.inverse_square_f32),
+            square: exact.square.map(|square| square as f32) * self.inverse_square_f32,
+            margin,
+            slope_margin: margin * self.inverse_radius,
+            strength: Lanes::splat(self.strength),
+        };
+        (parabola, along)
+    }
+}
+
+impl RelativePacket {
+    /// Surrounds the intervals of some lanes; their directions have these lengths.
+    #[inline(always)]
+    pub(super) fn surroundings(&self, length: Lanes<f32>, lanes: Mask) -> Surroundings {
+        let lane = lanes.bits().trailing_zeros() as usize;
+        let center = array_of(|axis| Lanes::splat(self.origin[axis].0[lane] as f32));
+        let away = array_of(|axis| self.origin[axis].map(|x| x as f32) - center[axis]);
+        let radius = length_squared(away).sqrt() + self.half * length;
+        let radius = lanes.select(radius * (1.0 + ROUNDED) + self.reach * ROUNDED, ZERO);
+        // Where f32 overflows no ball is culled.
+        let is_finite = radius.0.iter().all(|radius| radius.is_finite());
+        let widest = radius.0.into_iter().fold(0.0f32, f32::max);
+        Surroundings { center, radius: if is_finite { widest } else { f32::INFINITY } }
+    }
+}
+
+impl Block {
+    /// The lanes whose balls may reach an interval.
+    #[inline(always)]
+    pub(super) fn near(&self, surroundings: &Surroundings) -> u32 {
+        let Surroundings { center, radius } = surroundings;
+        let distance = length_squared(array_of(|axis| self.center[axis] - center[axis]));
+        let reach = self.radius.map(|own| own + radius);
+        self.balls & !(reach * reach).is_less(distance).bits()
     }
 }

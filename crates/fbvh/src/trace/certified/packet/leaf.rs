@@ -14,18 +14,28 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::super::bernstein::value_and_rise;
 use super::super::kernel::{ByDegree, by_degree, is_polynomial, value};
-use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
-use super::super::parabolas::{Parabolas, UNIT};
+use super::super::lanes::{Lanes, Mask, WIDTH, lanes_of};
+use super::super::parabolas::UNIT;
 use super::super::polynomial::MOST_INTERVALS;
-use super::super::query::{Answer, Crossing, Query};
+use super::super::query::{Crossing, Query};
 use super::balls::{Balls, RelativePacket};
 use super::enclosure::Enclosure;
 use super::rays::{ExactPacket, Packet};
-use super::root::{Isolated, approach, refine};
+use super::root::{Isolated, Roots, approach, refine};
 
 /// Whether packets can be searched for it: for an entry, by polynomials.
 pub(super) fn is_searched_in_packets(query: &Query) -> bool {
     query.crossing == Crossing::Entry && is_polynomial(query.kernel)
+}
+
+/// What is found, lane by lane; lanes in none of the three f32 cannot decide.
+pub(super) struct Found {
+    /// Lanes without a crossing.
+    pub(super) nothing: Mask,
+    /// Lanes with a crossing, for a query that any will do for.
+    pub(super) somewhere: Mask,
+    /// Lanes whose first crossings are known.
+    pub(super) roots: Roots,
 }
 
 /// Searches a leaf that has been loaded, over the intervals of some of the packet's rays.
@@ -34,13 +44,14 @@ pub(super) fn search(
     arch: Arch,
     balls: &mut Balls,
     (packet, exact): (&Packet, &ExactPacket),
-    interval: (Lanes<f64>, Lanes<f64>),
+    interval: &(Lanes<f64>, Lanes<f64>),
     lanes: u32,
-) -> [Answer; WIDTH] {
-    let mut answers = [Answer::Undecided; WIDTH];
-    let results = &mut answers;
+) -> Found {
+    let (nothing, somewhere, roots) = (Mask::NONE, Mask::NONE, Roots::NONE);
+    let mut found = Found { nothing, somewhere, roots };
+    let (lanes, results) = (Mask::from_bits(lanes), &mut found);
     by_degree(query.kernel, Search { query, arch, balls, packet, exact, interval, lanes, results });
-    answers
+    found
 }
 
 struct Search<'a> {
@@ -49,9 +60,9 @@ struct Search<'a> {
     balls: &'a mut Balls,
     packet: &'a Packet,
     exact: &'a ExactPacket,
-    interval: (Lanes<f64>, Lanes<f64>),
-    lanes: u32,
-    results: &'a mut [Answer; WIDTH],
+    interval: &'a (Lanes<f64>, Lanes<f64>),
+    lanes: Mask,
+    results: &'a mut Found,
 }
 
 impl ByDegree for Search<'_> {
@@ -71,8 +82,8 @@ impl<const N: usize> WithSimd for SearchOfDegree<'_, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self(mut search) = self;
-        let Search { packet, exact, interval, lanes, .. } = search;
-        let relative = search.balls.relative(packet, exact, interval, lanes);
+        let Search { packet, exact, interval, .. } = search;
+        let relative = search.balls.relative(packet, exact, *interval);
         let projected = search.project::<N>(&relative);
         if !projected.open.any() {
             return;
@@ -82,14 +93,14 @@ impl<const N: usize> WithSimd for SearchOfDegree<'_, N> {
             let Search { query, balls, results, .. } = search;
             let guess = approach::<N>(query, balls, &isolated);
             let rays = (packet, &relative);
-            refine::<N>(query, balls, rays, &isolated, guess, interval, results);
+            results.roots = refine::<N>(query, balls, rays, &isolated, guess, *interval);
         }
     }
 }
 
 /// What the balls' projections show.
 struct Projected {
-    /// Where the field may reach T; the other lanes are answered.
+    /// Where the field may reach T; in the other lanes nothing crosses.
     open: Mask,
     /// Where the first interval is best ended.
     end: Lanes<f32>,
@@ -97,76 +108,47 @@ struct Projected {
 
 impl Search<'_> {
     /// Projects the balls on the rays and keeps those that reach an interval.
-    ///
-    /// # Rounding
-    /// As for a single ray (`project` of `trace/certified/polynomial/blocks.rs`): ρ + λ + ω is at most
-    /// the distance of the ball's centre from the leaf's middle plus `reach`, in radii. The projection,
-    /// where v is largest, is misplaced by a few u(ρ + λ + ω)R, which changes v by the square of that.
     #[inline(always)]
     fn project<const N: usize>(&mut self, relative: &RelativePacket) -> Projected {
-        const MARGIN: f32 = 16.0 * UNIT;
-        let packet = self.packet;
         let zero = Lanes::splat(0.0f32);
-        let origin: [_; 3] = array_of(|axis| relative.origin[axis].map(|x| x as f32));
-        let square = self.exact.square.map(|square| square as f32);
-        let inverse_square_length = square.map(f32::recip);
+        let inverse_square_length = self.exact.square.map(|square| (square as f32).recip());
         let back = zero - relative.half;
-        let [dx, dy, dz] = packet.direction;
         let threshold = Lanes::splat(self.query.threshold as f32);
         let (mut upper_bound, mut end) = (zero, relative.half);
-        self.balls.cull(packet, relative, self.lanes.trailing_zeros() as usize);
-        let Balls { balls, kept, parabolas, .. } = &mut *self.balls;
+        let surroundings = relative.surroundings(self.exact.length, self.lanes);
+        let Balls { balls, blocks, kept, parabolas, .. } = &mut *self.balls;
+        kept.clear();
         parabolas.clear();
-        let mut count = 0;
-        for candidate in 0..kept.len() {
-            let at = kept[candidate];
-            let ball = &balls[at as usize];
-            let [x, y, z] = array_of(|axis| Lanes::splat(ball.center[axis]) - origin[axis]);
-            let along = x * dx + y * dy + z * dz;
-            let distance = (x * x + y * y + z * z) * ball.inverse_square_f32;
-            let reaches = (relative.reach * ball.inverse_radius).map(|reach| ball.distance + reach);
-            let margin = (reaches * reaches).map(|x| MARGIN * (1.0 + x));
-            let parabola = Parabolas {
-                constant: distance.map(|x| 1.0 - x),
-                linear: along * (2.0 * ball.inverse_square_f32),
-                square: square * ball.inverse_square_f32,
-                margin,
-                slope_margin: margin * ball.inverse_radius,
-                strength: Lanes::splat(ball.strength),
-            };
-            let t = (along * inverse_square_length).min(relative.half).max(back);
-            let top = parabola.constant + (parabola.linear - parabola.square * t) * t + margin;
-            if !(!top.is_at_most(zero)).any() {
-                continue;
+        for (at, block) in blocks.iter().enumerate() {
+            for lane in lanes_of(block.near(&surroundings)) {
+                let at = WIDTH * at + lane;
+                let ball = &balls[at];
+                let (parabola, along) = ball.along(self.packet, self.exact, relative);
+                let t = (along * inverse_square_length).min(relative.half).max(back);
+                let v = parabola.constant + (parabola.linear - parabola.square * t) * t;
+                let top = v + parabola.margin;
+                if !(self.lanes & !top.is_at_most(zero)).any() {
+                    continue;
+                }
+                // NaN stays NaN.
+                let most = value::<N>(self.query.kernel, zero.max(top)) * ball.strength;
+                upper_bound += most;
+                // Slope margins before the projection it certainly rises still.
+                let before = t - parabola.margin * ball.radius;
+                end = threshold.is_less(most).select(before.min(end), end);
+                kept.push(at as u32);
+                parabolas.push(parabola);
             }
-            // NaN stays NaN.
-            let most = value::<N>(self.query.kernel, zero.max(top)) * ball.strength;
-            upper_bound += most;
-            // Slope margins before the projection it certainly rises still.
-            let before = t - margin * ball.radius;
-            end = threshold.is_less(most).select(before.min(end), end);
-            kept[count] = at;
-            count += 1;
-            parabolas.push(parabola);
         }
-        kept.truncate(count);
         let rounding = (self.balls.parabolas.len() + 34) as f32 * UNIT;
         let is_below = (upper_bound * (1.0 + rounding)).is_less(threshold);
-        let lanes = Mask::from_bits(self.lanes);
-        self.answer(is_below & lanes, Answer::Nothing);
+        self.results.nothing = self.lanes & is_below;
         let end = back.is_less(end).select(end, relative.half);
-        Projected { open: lanes & !is_below, end }
-    }
-
-    #[inline(always)]
-    fn answer(&mut self, lanes: Mask, answer: Answer) {
-        for lane in lanes_of(lanes.bits()) {
-            self.results[lane] = answer;
-        }
+        Projected { open: self.lanes & !is_below, end }
     }
 
     /// Front to back, each lane on its own: nothing crosses before `start`. Lanes that cannot decide
-    /// stay without an answer.
+    /// are in no mask.
     #[inline(always)]
     fn isolate<const N: usize>(
         &mut self,
@@ -185,12 +167,12 @@ impl Search<'_> {
             open = open & bounds.is_known & bounds.upper[0].is_less(zero);
             if self.query.any {
                 let inside = zero.is_less(bounds.ends[0]) | zero.is_less(bounds.ends[1]);
-                self.answer(open & inside, Answer::Somewhere);
+                self.results.somewhere = self.results.somewhere | open & inside;
                 open = open & !inside;
             }
             let is_below = bounds.upper.iter().fold(open, |below, c| below & c.is_less(zero));
             let is_last = last.is_at_most(end);
-            self.answer(is_below & is_last, Answer::Nothing);
+            self.results.nothing = self.results.nothing | is_below & is_last;
             let rises = bounds.increases & zero.is_less(bounds.ends[1]);
             let once = open & (rises | bounds.is_exact & bounds.changes_sign_once());
             if once.any() {

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::super::kernel::{slope, value, value_and_slope};
 use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
-use super::super::query::{Answer, Query};
+use super::super::query::Query;
 use super::balls::{Balls, RelativePacket};
 use super::rays::Packet;
 
@@ -16,6 +16,17 @@ pub(super) struct Isolated {
     pub(super) end: Lanes<f32>,
     /// Somewhere near it.
     pub(super) guess: Lanes<f32>,
+}
+
+/// Roots that are known, lane by lane.
+pub(super) struct Roots {
+    pub(super) lanes: u32,
+    /// The ray's t, and the gradient of the field there.
+    pub(super) roots: [(f64, DVec3); WIDTH],
+}
+
+impl Roots {
+    pub(super) const NONE: Self = Self { lanes: 0, roots: [(0.0, DVec3::ZERO); WIDTH] };
 }
 
 /// The roots to what f32 can resolve: Newton's steps, kept between the ends.
@@ -64,8 +75,7 @@ pub(super) fn refine<const N: usize>(
     isolated: &Isolated,
     guess: Lanes<f32>,
     interval: (Lanes<f64>, Lanes<f64>),
-    answers: &mut [Answer; WIDTH],
-) {
+) -> Roots {
     const MOST_STEPS: usize = 6;
     let Isolated { found, start, end, .. } = *isolated;
     let direction: [_; 3] = array_of(|axis| packet.direction[axis].map(f64::from));
@@ -75,7 +85,7 @@ pub(super) fn refine<const N: usize>(
     let last = if N == 3 { 1e-8 } else { 1e-6 };
     let radii = balls.kept.iter().map(|&at| balls.balls[at as usize].radius);
     let last_step = last * f64::from(radii.fold(f32::INFINITY, f32::min));
-    let mut open = found.bits();
+    let (mut roots, mut open) = (Roots::NONE, found.bits());
     for _ in 0..MOST_STEPS {
         let (excess, gradient) =
             excess_and_gradient::<N>(query, balls, &relative.origin, &direction, t);
@@ -95,13 +105,15 @@ pub(super) fn refine<const N: usize>(
             // Past the ray's end by a rounding: too close to decide here.
             if is_between && t <= interval.1.0[lane] {
                 let gradient = DVec3::from(array_of(|axis| gradient[axis].0[lane]));
-                answers[lane] = Answer::Root(t.max(interval.0.0[lane]), gradient);
+                roots.lanes |= 1 << lane;
+                roots.roots[lane] = (t.max(interval.0.0[lane]), gradient);
             }
         }
         if open == 0 {
             break;
         }
     }
+    roots
 }
 
 /// F − T and the gradient of F, 1/scene unit.
