@@ -33,8 +33,8 @@ pub(in crate::trace) struct PacketScratch {
     leaves: Vec<Balls>,
 }
 
-/// How many leaves stay loaded. With 32, mirrored and occlusion rays take 3 % more instructions, and rays
-/// from the eye as many.
+/// How many leaves stay loaded. With 32, mirrored and occlusion rays take 3 % more instructions, and
+/// rays from the eye as many.
 const LOADED: usize = 128;
 
 impl PacketScratch {
