@@ -21,7 +21,7 @@ use std::io::Read;
 
 use flate2::read::MultiGzDecoder;
 use glam::DVec3;
-use particle_files::{pack_frames, read};
+use particle_files::{ReadOptions, pack_frames, read};
 
 /// Springs reach so far, Å.
 const CUTOFF: f64 = 15.0;
@@ -44,13 +44,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [molecule, packed] = arguments.as_slice() else { return Err("needed PDB OUTPUT".into()) };
     let nodes = alpha_carbons(molecule)?;
     let modes = Network::new(&nodes).softest_modes()?;
-    let atoms = read(molecule)?.balls;
+    let atoms = read(molecule, &ReadOptions::default())?.positions;
     let frames: Vec<Vec<glam::Vec3>> = modes
         .iter()
-        .map(|mode| {
-            let centers = atoms.iter().map(|atom| atom.center.as_dvec3());
-            centers.map(|center| displacement(center, &nodes, mode).as_vec3()).collect()
-        })
+        .map(|mode| atoms.iter().map(|atom| displacement(*atom, &nodes, mode).as_vec3()).collect())
         .collect();
     std::fs::write(packed, pack_frames(1.0, STEP, &frames)?)?;
     Ok(())

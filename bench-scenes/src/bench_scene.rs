@@ -1,6 +1,7 @@
 //! A scene with the cameras that show it.
 
 use metaball_core::{Camera, Scene};
+use particle_files::{Cell, Legend, Notes};
 
 use crate::error::LoadError;
 use crate::random::Random;
@@ -21,6 +22,19 @@ pub struct BenchScene {
     pub path: Vec<Camera>,
     /// How strictly verdicts on its rays may be compared.
     pub kind: Kind,
+    /// What its file says beside the balls; `None` for scenes of no file.
+    pub file: Option<FileFacts>,
+}
+
+/// What a file says beside the balls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileFacts {
+    /// What was read, guessed and left out.
+    pub notes: Notes,
+    /// The periodic cell, in the coordinates of the file, in the unit of the scene.
+    pub cell: Option<Cell>,
+    /// What the colours say, where a column gave them.
+    pub legend: Option<Legend>,
 }
 
 /// How strictly hit and miss may be compared between methods.

@@ -10,8 +10,7 @@ pub enum LoadError {
     /// The words name neither a known scene nor a generator nor a kind of file.
     #[error(
         "{spec:?} is no scene. Needed one of\n  a known name: {known}\n  a generator: {generators}, \
-         each as name:count[:density[:seed]]\n  a scene file (.toml) or a particle file ({endings}), each \
-         of these also with .gz"
+         each as name:count[:density[:seed]]\n  a file of particles, or a scene file (.toml)"
     )]
     Unknown {
         /// The spec.
@@ -20,14 +19,13 @@ pub enum LoadError {
         known: String,
         /// Names of generators, separated by commas.
         generators: String,
-        /// Endings of particle files, separated by commas.
-        endings: String,
     },
     /// The words name a scene that does not move, or none.
     #[error(
         "{spec:?} does not move. Needed one of\n  a known name: {known}\n  a generator: {generators}, \
          each as name:count[:density[:seed]]\n  a particle file for each frame, such as \
-         frame-%04d.xyz, or a scene file that names such particles\n  a .frames file"
+         frame-%04d.xyz, a file of many frames, or a scene file that names such particles\n  a .frames \
+         file"
     )]
     Still {
         /// The spec.

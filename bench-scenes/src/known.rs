@@ -1,7 +1,7 @@
 //! The scenes that have a name.
 
 use metaball_core::Kernel;
-use particle_files::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, framing, parse};
+use particle_files::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, ReadOptions, framing, parse};
 
 use crate::bench_scene::{BenchScene, Kind};
 use crate::cameras::orbit;
@@ -173,7 +173,8 @@ impl KnownScene {
                 (made.scene, made.camera, made.path)
             }
             Data(file, bytes, seen_from) => {
-                let scene = parse(file, bytes)?.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD)?;
+                let particles = parse(file, bytes, &ReadOptions::default())?;
+                let scene = particles.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD)?;
                 let (bounds, seen_from) = (scene.bounds(), seen_from.into());
                 (scene, framing(&bounds, seen_from), orbit(&bounds, seen_from))
             }
@@ -193,6 +194,7 @@ impl KnownScene {
             camera,
             path,
             kind: self.kind,
+            file: None,
         })
     }
 }

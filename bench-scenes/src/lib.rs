@@ -32,14 +32,14 @@ mod small;
 mod vibration;
 
 pub use arbitrary::arbitrary;
-pub use bench_scene::{BenchScene, Kind};
+pub use bench_scene::{BenchScene, FileFacts, Kind};
 pub use cases::{Case, Category, Redraw, cases};
 pub use density::mean_overlap;
 pub use error::LoadError;
 pub use generate::{Generator, generators};
 pub use inputs::inputs;
 pub use known::{KnownScene, known};
-pub use load::load;
+pub use load::{load, load_as};
 pub use moving::{FRAME_RATE, Moving, moving};
-pub use particle_files::Overrides;
+pub use particle_files::{Overrides, ReadOptions};
 pub use random::Random;

@@ -4,11 +4,14 @@ use std::ops::Range;
 
 use glam::Vec3;
 use metaball_core::{Aabb, Camera, Scene};
-use particle_files::{AnimatedScene, BoxError, Overrides, PackedFrames, Sequence, framing};
+use particle_files::{
+    AnimatedScene, BoxError, Cell, Notes, Overrides, PackedFrames, ReadOptions, Sequence, framing,
+};
 
 use crate::error::LoadError;
 use crate::generate::{self, Recipe};
 use crate::known::KnownScene;
+use crate::load::{check_unread, is_word};
 use crate::vibration::Vibration;
 use crate::{generators, known};
 
@@ -40,7 +43,7 @@ enum Motion {
     /// Without end, periodic.
     Vibrating(Vibration),
     /// Files.
-    Sequence(Sequence),
+    Sequence(Box<Sequence>),
 }
 
 /// The moving scenes that have a name, each with one sentence on what it shows. Generators that
@@ -61,13 +64,27 @@ impl Moving {
     /// # Errors
     /// As [`load`](crate::load()); and where the spec's scene does not move.
     pub fn load(spec: &str, overrides: &Overrides) -> Result<Self, LoadError> {
+        Self::load_as(spec, &ReadOptions::default(), overrides)
+    }
+
+    /// The same; files are read so.
+    ///
+    /// # Errors
+    /// As [`Moving::load`]; and where options are given for a scene of no file.
+    pub fn load_as(
+        spec: &str,
+        options: &ReadOptions,
+        overrides: &Overrides,
+    ) -> Result<Self, LoadError> {
         let named = moving().iter().find(|(name, _)| *name == spec);
         let moving = if let Some((name, about)) = named {
+            check_unread(spec, options)?;
             Self { name: (*name).to_owned(), about: (*about).to_owned(), ..of_name(name)? }
         } else if let Some(recipe) = generate::parse(spec)? {
+            check_unread(spec, options)?;
             Self::generated(recipe)?
         } else {
-            Self::of_sequence(open_sequence(spec)?)
+            Self::of_sequence(open_sequence(spec, options)?)
         };
         Ok(Self { overrides: *overrides, ..moving })
     }
@@ -89,6 +106,14 @@ impl Moving {
         match &self.motion {
             Motion::Sequence(sequence) => Ok(sequence.present(range)?),
             Motion::Generated { .. } | Motion::Vibrating(_) => Ok(range.collect()),
+        }
+    }
+
+    /// The periodic cell of the first frame of a file.
+    pub fn cell(&self) -> Option<Cell> {
+        match &self.motion {
+            Motion::Sequence(sequence) => sequence.cell(),
+            Motion::Generated { .. } | Motion::Vibrating(_) => None,
         }
     }
 
@@ -114,7 +139,7 @@ impl Moving {
     fn of_sequence(sequence: Sequence) -> Self {
         let (name, camera) = (sequence.name().to_owned(), *sequence.camera());
         let frames = sequence.frames();
-        Self::new(name, Motion::Sequence(sequence), frames, camera)
+        Self::new(name, Motion::Sequence(Box::new(sequence)), frames, camera)
     }
 }
 
@@ -124,7 +149,11 @@ impl AnimatedScene for Moving {
     }
 
     fn description(&self) -> String {
-        format!("{} with {:?}", self.name, self.overrides)
+        let source = match &self.motion {
+            Motion::Sequence(sequence) => sequence.description(),
+            Motion::Generated { .. } | Motion::Vibrating(_) => self.name.clone(),
+        };
+        format!("{source} with {:?}", self.overrides)
     }
 
     fn camera(&self) -> &Camera {
@@ -133,6 +162,13 @@ impl AnimatedScene for Moving {
 
     fn frames(&self) -> Range<u32> {
         self.frames.clone()
+    }
+
+    fn notes(&self) -> Option<&Notes> {
+        match &self.motion {
+            Motion::Sequence(sequence) => Some(sequence.notes()),
+            Motion::Generated { .. } | Motion::Vibrating(_) => None,
+        }
     }
 
     fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
@@ -183,12 +219,11 @@ fn of_name(name: &str) -> Result<Moving, LoadError> {
     }
 }
 
-fn open_sequence(spec: &str) -> Result<Sequence, LoadError> {
-    use particle_files::LoadError::{NotASequence, UnknownFormat};
-    Sequence::open(spec, &Overrides::default()).map_err(|error| match error {
-        NotASequence { file } | UnknownFormat { file, .. } => still(&file),
-        error => error.into(),
-    })
+fn open_sequence(spec: &str, options: &ReadOptions) -> Result<Sequence, LoadError> {
+    if is_word(spec) {
+        return Err(still(spec));
+    }
+    Ok(Sequence::open(spec, options, &Overrides::default())?)
 }
 
 fn still(spec: &str) -> LoadError {

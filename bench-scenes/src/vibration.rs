@@ -26,8 +26,8 @@ impl Vibration {
         for mode in 0..self.modes.count() {
             let phase = (mode + 1) * (number % Self::PERIOD);
             let swing = turn(f64::from(phase) / f64::from(Self::PERIOD)).y as f32;
-            for (ball, displaced) in balls.iter_mut().zip(self.modes.frame(mode).balls) {
-                ball.center += swing * displaced.center;
+            for (ball, displaced) in balls.iter_mut().zip(self.modes.centers(mode)) {
+                ball.center += swing * displaced;
             }
         }
         let scene = Scene::new(balls, self.rest.kernel(), self.rest.threshold())?;

@@ -132,12 +132,16 @@ fn numbered_files_move() {
 
 #[test]
 fn what_does_not_move_says_what_does() {
-    for spec in ["scattered:500", "dam-break", "nosuch", "p.csv"] {
+    for spec in ["scattered:500", "dam-break", "nosuch"] {
         let message = get(spec).expect_err("still").to_string();
         assert!(message.contains("does not move. Needed one of"), "{message}");
         assert!(message.contains("molecule, splash") && message.contains("tornado, fountain"));
     }
     let folder = folder("none");
+    let single = folder.join("p.csv");
+    fs::write(&single, "x,y,z\n0,0,0\n").expect("writable");
+    let message = get(&single.display().to_string()).expect_err("one frame").to_string();
+    assert!(message.contains("needed a particle file for each frame"), "{message}");
     let message = get(&folder.join("%d.xyz").display().to_string()).expect_err("none").to_string();
     assert!(message.ends_with("needed at least one file of this name, found none"), "{message}");
 }

@@ -79,6 +79,7 @@ impl Case {
             camera,
             path: Vec::new(),
             kind: Kind::General,
+            file: None,
         })
     }
 

@@ -84,6 +84,7 @@ impl Recipe {
             path: (self.generator.path)(&bounds, seen_from),
             kind: Kind::General,
             scene,
+            file: None,
         })
     }
 

@@ -4,6 +4,7 @@
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use harness::configuration::Configuration;
@@ -20,6 +21,30 @@ pub fn line(text: &str) {
 /// One line about how things went, on standard error.
 pub fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// Does work that has no steps. After a second a terminal shows that it goes on, and for how long.
+pub fn while_working<T>(doing: &str, work: impl FnOnce() -> T) -> T {
+    let (done, is_done) = mpsc::channel::<()>();
+    std::thread::scope(|scope| {
+        scope.spawn(move || {
+            if is_done.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
+                return;
+            }
+            let style = ProgressStyle::with_template("{spinner} {msg} ({elapsed})");
+            let spinner = indicatif::ProgressBar::new_spinner().with_message(doing.to_owned());
+            let spinner = match style {
+                Ok(style) => spinner.with_style(style),
+                Err(_) => spinner,
+            };
+            spinner.enable_steady_tick(Duration::from_millis(200));
+            // The other end is closed, whatever becomes of the work.
+            let _ = is_done.recv();
+            spinner.finish_and_clear();
+        });
+        let _closed_at_the_end = done;
+        work()
+    })
 }
 
 /// Opens an adapter, and prints which.

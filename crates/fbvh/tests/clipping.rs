@@ -33,7 +33,7 @@ impl Region {
 
     fn clip(&self) -> Clip {
         self.planes.iter().fold(Clip::default(), |clip, &plane| {
-            clip.and_plane(plane.0, Self::offset(plane)).expect("a plane")
+            clip.and_plane(plane.0, Self::offset(plane).into()).expect("a plane")
         })
     }
 

@@ -1,21 +1,21 @@
 //! Another camera than the scene's own: its options.
 
 use clap::Args;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use metaball::Viewpoint;
 use metaball_core::CameraError;
 
-use crate::values::vector;
+use crate::values::{point, vector};
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Camera (the scene's own where left out)")]
 pub(crate) struct CameraArgs {
-    /// The eye, world space. Alone it looks at the middle of the scene.
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
-    eye: Option<Vec3>,
-    /// What it looks at, world space.
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
-    look_at: Option<Vec3>,
+    /// The eye, in the file's coordinates. Alone it looks at the middle of the scene.
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    eye: Option<DVec3>,
+    /// What it looks at, in the file's coordinates.
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    look_at: Option<DVec3>,
     /// What is up in the picture; for another eye or direction the y axis, or the z axis where the view is
     /// along that.
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]

@@ -1,8 +1,8 @@
 //! What is cut away: its options.
 
 use clap::Args;
-use glam::Vec3;
-use metaball::{Aabb, Clip, ClipError};
+use glam::{DVec3, Vec3};
+use metaball::{Clip, ClipError};
 
 use crate::values::numbers;
 
@@ -15,12 +15,16 @@ pub(crate) struct ClipArgs {
     clip: Vec<Plane>,
     /// Keep what is in a box between two corners, the least one first.
     #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = corners, allow_hyphen_values = true)]
-    clip_box: Option<Aabb>,
+    clip_box: Option<Corners>,
 }
 
 /// An outward normal and an offset.
 #[derive(Debug, Clone, Copy)]
-struct Plane(Vec3, f32);
+struct Plane(Vec3, f64);
+
+/// The least and the greatest corner of a box.
+#[derive(Debug, Clone, Copy)]
+struct Corners(DVec3, DVec3);
 
 impl ClipArgs {
     pub(crate) fn clip(&self) -> Result<Clip, ClipError> {
@@ -32,7 +36,10 @@ impl ClipArgs {
                 clip.and_plane(normal, offset)
             })?;
         match &self.clip_box {
-            Some(corners) => clip.and_box(corners),
+            Some(Corners(least, greatest)) => Vec3::AXES.iter().try_fold(clip, |clip, axis| {
+                let offset = |corner: &DVec3| corner.dot(axis.as_dvec3());
+                clip.and_plane(*axis, offset(greatest))?.and_plane(-*axis, -offset(least))
+            }),
             None => Ok(clip),
         }
     }
@@ -40,20 +47,22 @@ impl ClipArgs {
 
 fn plane(text: &str) -> Result<Plane, String> {
     let [x, y, z, offset] = numbers(text).ok_or("needed four numbers such as 1,0,0,0.5")?;
-    let normal = Vec3::new(x, y, z);
+    let normal = DVec3::new(x, y, z).as_vec3();
     let legal = Clip::default().and_plane(normal, offset);
     legal.map(|_| Plane(normal, offset)).map_err(|error| error.to_string())
 }
 
-fn corners(text: &str) -> Result<Aabb, String> {
-    let [a, b, c, x, y, z] = numbers(text).ok_or("needed six numbers such as 0,0,0,1,1,0.5")?;
-    let corners = Aabb { min: Vec3::new(a, b, c), max: Vec3::new(x, y, z) };
-    let legal = Clip::default().and_box(&corners);
-    legal.map(|_| corners).map_err(|error| error.to_string())
+fn corners(text: &str) -> Result<Corners, String> {
+    let needed = "needed six numbers, the least corner first, such as 0,0,0,1,1,0.5";
+    let [a, b, c, x, y, z] = numbers(text).ok_or(needed)?;
+    let (least, greatest) = (DVec3::new(a, b, c), DVec3::new(x, y, z));
+    if least.cmple(greatest).all() { Ok(Corners(least, greatest)) } else { Err(needed.to_owned()) }
 }
 
 #[cfg(test)]
 mod tests {
+    use metaball::Aabb;
+
     use super::*;
     use crate::{Command, parse};
 

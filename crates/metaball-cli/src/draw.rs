@@ -1,11 +1,11 @@
 //! The commands that draw: `render` and `animate`.
 
 use std::ops::{ControlFlow, Range};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
-use bench_scenes::{Moving, inputs, load};
+use bench_scenes::{Moving, inputs, load_as};
 use clap::Args;
 use experiments::console::{self, ProgressBar};
 use harness::auto::MAX_ERROR;
@@ -13,9 +13,9 @@ use harness::auto::cache::Cache;
 use harness::methods::find;
 use harness::numbers::{decimal, grouped};
 use metaball::{
-    AnimateOptions, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions, Error,
-    FrameOutcome, Method, NumberedPath, Outputs, Overrides, Progress, Stage, Summary, Tally,
-    animate, draw_to_files,
+    AnimateOptions, AnimatedScene, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions,
+    Emptiness, Error, FrameOutcome, Method, NumberedPath, Outputs, Overrides, Progress,
+    ReadOptions, Stage, Summary, Tally, animate, draw_to_files, save_legend,
 };
 use metaball_core::{Color, Picture, Scene};
 
@@ -24,6 +24,8 @@ use crate::clip::ClipArgs;
 use crate::light::LightArgs;
 use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
 use crate::picture::{color_of, picture_named};
+use crate::reading::ReadingArgs;
+use crate::says::{Says, line, say_notes, speaker};
 use crate::shared::PictureArgs;
 use crate::values;
 
@@ -43,8 +45,10 @@ pub(crate) struct DrawingArgs {
     #[arg(long, conflicts_with_all = ["adapter", "software"])]
     cpu: bool,
     /// One colour for all balls, sRGB, 0 to 1; the scene's own, or white, when left out.
-    #[arg(long, value_name = "R,G,B", value_parser = color_of)]
+    #[arg(long, value_name = "R,G,B", value_parser = color_of, conflicts_with = "color_by")]
     color: Option<Color>,
+    #[command(flatten)]
+    reading: ReadingArgs,
     #[command(flatten)]
     camera: CameraArgs,
     #[command(flatten)]
@@ -58,6 +62,7 @@ pub(crate) struct DrawingArgs {
 /// A scene by its words, and how to draw it.
 struct Request {
     scene: String,
+    reading: ReadOptions,
     overrides: Overrides,
     options: DrawOptions,
 }
@@ -65,7 +70,8 @@ struct Request {
 impl DrawingArgs {
     /// With `auto` where it chooses; else with the method named, or the default.
     fn request(self, auto: Option<Choosing>) -> anyhow::Result<Request> {
-        let Self { scene, method, picture, cpu, color, camera, clip, light, shared } = self;
+        let Self { scene, method, picture, cpu, color, reading, camera, clip, light, shared } =
+            self;
         let method = match auto {
             Some(choosing) => Method::Auto(choosing),
             None => {
@@ -88,7 +94,8 @@ impl DrawingArgs {
             light: light.options(),
             backend,
         };
-        Ok(Request { scene, overrides: Overrides { color, ..shared.overrides() }, options })
+        let (reading, overrides) = (reading.options(), Overrides { color, ..shared.overrides() });
+        Ok(Request { scene, reading, overrides, options })
     }
 }
 
@@ -124,7 +131,7 @@ impl RenderArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         let auto = self.choosing()?;
         let Self { drawing, out, hits, light_out, resume, .. } = self;
-        let Request { scene, overrides, options } = drawing.request(auto)?;
+        let Request { scene, reading, overrides, mut options } = drawing.request(auto)?;
         if matches!(options.method, Method::Auto(_)) {
             ensure!(
                 options.backend != Backend::Cpu,
@@ -132,8 +139,14 @@ impl RenderArgs {
             );
             console::note("auto: drawing with every candidate, and asking the oracle");
         }
-        let bench = load(&scene, &overrides)?;
-        let inputs = inputs(&scene);
+        let bench = console::while_working(&format!("reading {scene}"), || {
+            load_as(&scene, &reading, &overrides)
+        })?;
+        let file = bench.file.as_ref();
+        if let (Some(cell), true) = (file.and_then(|file| file.cell), reading.periodic) {
+            options.clip = options.clip.and(&cell.region()?);
+        }
+        let inputs = inputs(&scene).into_iter().chain(reading.topology.clone()).collect();
         let outputs = Outputs { image: out, hits, light: light_out, resume, inputs };
         let mut bars = Bars::default();
         let summary = draw_to_files(&bench.scene, &bench.camera, &options, &outputs, |progress| {
@@ -145,9 +158,17 @@ impl RenderArgs {
         let files = files.into_iter().chain([("light file", outputs.light.as_ref())]);
         let files: Vec<_> = files.filter_map(|(name, path)| Some((name, path?))).collect();
         let says = speaker(files.iter().map(|(_, path)| path.as_path()));
-        report(says, &bench.name, &bench.scene, &summary.map_err(by_flag)?);
+        let summary = summary.map_err(by_flag)?;
+        line(says, "scene", &bench.name);
+        file.into_iter().for_each(|file| say_notes(says, &file.notes));
+        report(says, &bench.scene, &summary);
         for (name, path) in files {
             line(says, name, &path.display().to_string());
+        }
+        if let Some(legend) = file.and_then(|file| file.legend.as_ref()) {
+            let path = outputs.image.with_extension("legend.svg");
+            save_legend(legend, &path)?;
+            line(says, "legend", &path.display().to_string());
         }
         Ok(())
     }
@@ -209,9 +230,14 @@ impl AnimateArgs {
             drawing.method.as_deref() != Some(AUTO),
             "auto chooses for one picture: for frames name a method"
         );
-        let Request { scene, overrides, options: draw } = drawing.request(None)?;
-        let moving = Moving::load(&scene, &overrides)?;
-        let inputs = inputs(&scene);
+        let Request { scene, reading, overrides, options: mut draw } = drawing.request(None)?;
+        let moving = console::while_working(&format!("reading {scene}"), || {
+            Moving::load_as(&scene, &reading, &overrides)
+        })?;
+        if let (Some(cell), true) = (moving.cell(), reading.periodic) {
+            draw.clip = draw.clip.and(&cell.region()?);
+        }
+        let inputs = inputs(&scene).into_iter().chain(reading.topology.clone()).collect();
         let options = AnimateOptions { draw, frames, every, out, sheet, force, in_turn, inputs };
         let mut progress = None;
         let (report, path) = animate(&moving, &options, |event| match event {
@@ -237,6 +263,8 @@ impl AnimateArgs {
         .map_err(by_flag)?;
         drop(progress);
         let says = speaker(options.sheet.iter().map(PathBuf::as_path));
+        line(says, "scene", &report.scene);
+        moving.notes().into_iter().for_each(|notes| say_notes(says, notes));
         report_animation(says, &report);
         line(says, "report", &path.display().to_string());
         let broken: Vec<_> = report.broken().collect();
@@ -270,19 +298,6 @@ fn by_flag(error: Error) -> anyhow::Error {
     }
 }
 
-/// What says a line.
-type Says = fn(&str);
-
-/// Says what became of a run: on standard error where one of its files is standard output.
-fn speaker<'a>(mut files: impl Iterator<Item = &'a Path>) -> Says {
-    let names = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].map(Path::new);
-    if files.any(|path| names.contains(&path)) { console::note } else { console::line }
-}
-
-fn line(says: Says, name: &str, value: &str) {
-    says(&format!("{name:<10} {value}"));
-}
-
 /// How far a picture is, on a terminal.
 #[derive(Default)]
 struct Bars(Option<(Stage, ProgressBar)>);
@@ -306,10 +321,9 @@ impl Bars {
     }
 }
 
-fn report(says: Says, name: &str, scene: &Scene, summary: &Summary) {
+fn report(says: Says, scene: &Scene, summary: &Summary) {
     let Summary { tally, range, samples, account, computed_by, build, .. } = summary;
     let time = |time: &Duration| ms(1e3 * time.as_secs_f64());
-    line(says, "scene", name);
     line(says, "balls", &format!("{} of kernel {}", grouped(scene.len()), scene.kernel()));
     line(says, "threshold", &scene.threshold().to_string());
     for (name, value) in account {
@@ -319,6 +333,9 @@ fn report(says: Says, name: &str, scene: &Scene, summary: &Summary) {
     line(says, "build", &time(build));
     line(says, "frame", &time(&tally.frame));
     line(says, "rays", &ray_facts(tally));
+    if tally.hits + tally.inside + tally.undecided == 0 {
+        line(says, "empty", &Emptiness::of(scene).to_string());
+    }
     if let Some(samples) = samples {
         line(says, "light", &light_facts(tally, *samples));
     }
@@ -381,7 +398,6 @@ fn rows_text(rows: &[[u32; 2]]) -> String {
 }
 
 fn report_animation(says: Says, report: &AnimationReport) {
-    line(says, "scene", &report.scene);
     line(says, "method", &report.method);
     line(says, "drawn by", &report.computed_by);
     line(says, "drawn", &frames_text(report));

@@ -5,6 +5,7 @@
 
 mod camera;
 mod clip;
+mod convert;
 mod display;
 mod draw;
 mod light;
@@ -12,6 +13,8 @@ mod list;
 mod measure;
 mod names;
 mod picture;
+mod reading;
+mod says;
 mod shared;
 mod tables;
 mod values;
@@ -27,6 +30,7 @@ use harness::methods::add_methods;
 pub use harness::renderer::Renderer;
 pub use harness::technique::{Own, Technique};
 
+use self::convert::ConvertArgs;
 use self::draw::{AnimateArgs, RenderArgs};
 use self::measure::{CertifyArgs, ChartArgs, CompareArgs, DiffArgs, ScoreArgs, StabilityArgs};
 use self::tables::TablesCommand;
@@ -47,7 +51,7 @@ enum Command {
     ///
     /// One hit for each pixel of the scene's camera, as OpenEXR or NumPy: docs/hits-format.md. Needs no
     /// graphics adapter.
-    Score(ScoreArgs),
+    Score(Box<ScoreArgs>),
     /// Say what changed between two files of records, of compare or chart: faster, slower, more or fewer
     /// wrong rays, by more than the spread.
     Diff(DiffArgs),
@@ -75,6 +79,8 @@ enum Command {
     Certify(CertifyArgs),
     /// Chart error against time over every method's knobs, and growth with count and density.
     Chart(ChartArgs),
+    /// Write the particles of a file in another format: extended XYZ, CSV, NPY, PLY or VTP.
+    Convert(ConvertArgs),
     /// List the known scenes and the generators.
     Scenes,
     /// List the methods.
@@ -137,6 +143,7 @@ fn obey(command: Command) -> anyhow::Result<()> {
         Command::Diff(diff) => diff.run(),
         Command::Render(render) => render.run(),
         Command::Animate(animate) => animate.run(),
+        Command::Convert(convert) => convert.run(),
         Command::Tables { of } => of.run(),
         Command::Stability(stability) => stability.run(),
         Command::Certify(certify) => certify.run(),

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use anyhow::ensure;
-use bench_scenes::Case;
+use bench_scenes::{Case, load_as};
 use clap::Args;
 use experiments::certify::{self, certify};
 use experiments::chart::{self, chart};
@@ -13,7 +13,7 @@ use experiments::console;
 use experiments::diff::diff;
 use experiments::score::score;
 use experiments::stability::{self, stability};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use harness::comparison;
 use harness::configuration::Configuration;
 use harness::imported::ImportedHits;
@@ -23,6 +23,7 @@ use metaball_core::Camera;
 
 use crate::camera::{CameraArgs, by_flag};
 use crate::names::{case_parser, configuration_parser, method_parser};
+use crate::reading::ReadingArgs;
 use crate::shared::{AdapterArgs, FieldArgs, PictureArgs, extent};
 use crate::values;
 
@@ -111,33 +112,42 @@ pub(crate) struct ScoreArgs {
     #[command(flatten)]
     viewpoint: CameraArgs,
     #[command(flatten)]
+    reading: ReadingArgs,
+    #[command(flatten)]
     field: FieldArgs,
 }
 
 impl ScoreArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { scene, hits, name, camera, every_pixel, viewpoint, field } = self;
+        let Self { scene, hits, name, camera, every_pixel, viewpoint, reading, field } = self;
         // What is wrong with the hits is said before a large scene is loaded.
         let imported = hits.map(|file| ImportedHits::read(&name, &file)).transpose()?;
-        let mut bench = bench_scenes::load(&scene, &field.overrides())?;
-        let middle = bench.scene.bounds().center();
-        bench.camera = viewpoint.viewpoint().camera(&bench.camera, middle).map_err(by_flag)?;
+        let mut bench = load_as(&scene, &reading.options(), &field.overrides())?;
+        bench.camera =
+            viewpoint.viewpoint().camera(&bench.camera, &bench.scene).map_err(by_flag)?;
         if camera {
-            console::line(&camera_text(&bench.camera));
+            console::line(&camera_text(&bench.camera, bench.scene.origin()));
         }
         imported.map_or(Ok(()), |imported| score(&bench, &imported, every_pixel))
     }
 }
 
-/// As a scene file says it, and the axes that rays are made of.
-fn camera_text(camera: &Camera) -> String {
+/// As a scene file says it, in the coordinates of the scene's file, and the axes that rays are made of.
+fn camera_text(camera: &Camera, origin: DVec3) -> String {
     let vector = |of: Vec3| format!("[{}, {}, {}]", of.x, of.y, of.z);
+    let point = |of: Vec3| {
+        let in_file = origin + of.as_dvec3();
+        match origin == DVec3::ZERO {
+            true => vector(of),
+            false => format!("[{}, {}, {}]", in_file.x, in_file.y, in_file.z),
+        }
+    };
     let fov = 2.0 * f64::from(camera.half_height()).atan().to_degrees();
     format!(
         "[camera]\neye = {}\nlook_at = {}\nup = {}\nvertical_fov_degrees = {fov}\n# unit axes\n\
          # right = {}\n# up = {}\n# forward = {}",
-        vector(camera.eye()),
-        vector(camera.eye() + camera.forward()),
+        point(camera.eye()),
+        point(camera.eye() + camera.forward()),
         vector(camera.up()),
         vector(camera.right()),
         vector(camera.up()),

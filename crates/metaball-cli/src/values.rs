@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use metaball_core::Kernel;
 use particle_files::{LoadError, kernel_named};
 
@@ -43,16 +43,24 @@ pub(crate) fn named_file(text: &str) -> Result<(String, PathBuf), String> {
 }
 
 /// So many finite numbers with commas between.
-pub(crate) fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    let numbers: [f32; N] = numbers.ok()?.try_into().ok()?;
+pub(crate) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers: [f64; N] = numbers.ok()?.try_into().ok()?;
     numbers.iter().all(|number| number.is_finite()).then_some(numbers)
+}
+
+/// Three coordinates with commas between.
+pub(crate) fn point(text: &str) -> Result<DVec3, String> {
+    let point = numbers(text).map(DVec3::from_array);
+    point.ok_or_else(|| "needed three numbers such as 0.5,1,-0.3".to_owned())
 }
 
 /// Three numbers with commas between.
 pub(crate) fn vector(text: &str) -> Result<Vec3, String> {
-    let vector = numbers(text).map(Vec3::from_array);
-    vector.ok_or_else(|| "needed three numbers such as 0.5,1,-0.3".to_owned())
+    point(text).map(DVec3::as_vec3).and_then(|vector| match vector.is_finite() {
+        true => Ok(vector),
+        false => Err("needed numbers that f32 holds".to_owned()),
+    })
 }
 
 #[cfg(test)]

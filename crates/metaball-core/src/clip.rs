@@ -33,7 +33,7 @@ pub struct Clip {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plane {
     normal: Vec3,
-    offset: f32,
+    offset: f64,
 }
 
 /// Why numbers are no region.
@@ -50,7 +50,7 @@ pub enum ClipError {
     #[error("clip plane: needed a finite offset, found {found}")]
     Offset {
         /// The offset.
-        found: f32,
+        found: f64,
     },
     /// A box has a corner that is not finite, or holds nothing.
     #[error("clip box: needed finite corners, the least one first, found {min} and {max}")]
@@ -69,7 +69,7 @@ impl Clip {
     ///
     /// # Errors
     /// When the normal is zero or a number not finite.
-    pub fn and_plane(mut self, normal: Vec3, offset: f32) -> Result<Self, ClipError> {
+    pub fn and_plane(mut self, normal: Vec3, offset: f64) -> Result<Self, ClipError> {
         if !normal.is_finite() || normal == Vec3::ZERO {
             return Err(ClipError::Normal { found: normal });
         }
@@ -90,10 +90,27 @@ impl Clip {
             return Err(ClipError::Box { min, max });
         }
         for axis in Vec3::AXES {
-            self.planes.push(Plane { normal: axis, offset: max.dot(axis) });
-            self.planes.push(Plane { normal: -axis, offset: -min.dot(axis) });
+            self.planes.push(Plane { normal: axis, offset: max.dot(axis).into() });
+            self.planes.push(Plane { normal: -axis, offset: (-min.dot(axis)).into() });
         }
         Ok(self)
+    }
+
+    /// What of the region lies in the other one too.
+    #[must_use]
+    pub fn and(mut self, other: &Self) -> Self {
+        self.planes.extend_from_slice(&other.planes);
+        self
+    }
+
+    /// The same region where coordinates begin at `origin`, as those of a
+    /// [scene](crate::Scene::origin) can.
+    #[must_use]
+    pub fn relative_to(mut self, origin: DVec3) -> Self {
+        for plane in &mut self.planes {
+            plane.offset -= plane.normal.as_dvec3().dot(origin);
+        }
+        self
     }
 
     /// Whether the region is all of space, which cuts nothing.
@@ -113,7 +130,7 @@ impl Clip {
         for plane in &self.planes {
             let normal = plane.normal.as_dvec3();
             let rise = normal.dot(direction);
-            let below = f64::from(plane.offset) - normal.dot(origin);
+            let below = plane.offset - normal.dot(origin);
             let t = below / rise;
             if rise > 0.0 && t < end {
                 (end, exit) = (t, Some(normal));
@@ -239,6 +256,17 @@ mod tests {
     }
 
     #[test]
+    fn a_region_is_the_same_about_another_origin() {
+        let about = DVec3::new(5_460_000.0, 7.0, -2.0);
+        let far = Clip::default().and_plane(Vec3::X, about.x + 0.25).expect("a plane");
+        let both = far
+            .relative_to(about)
+            .and(&Clip::default().and_plane(Vec3::NEG_X, 1.0).expect("a plane"));
+        let section = both.section(&along_x());
+        assert_eq!((section.ray.t_min, section.ray.t_max), (2.0, 3.25));
+    }
+
+    #[test]
     fn exits_are_at_the_first_of_surface_and_face() {
         let clip = Clip::default().and_plane(Vec3::X, 0.5).expect("a plane");
         let section = clip.section(&along_x());
@@ -261,7 +289,7 @@ mod tests {
         let plane = |normal, offset| Clip::default().and_plane(normal, offset);
         assert_eq!(plane(Vec3::ZERO, 1.0), Err(ClipError::Normal { found: Vec3::ZERO }));
         assert!(plane(Vec3::NAN, 1.0).is_err());
-        assert_eq!(plane(Vec3::X, f32::INFINITY), Err(ClipError::Offset { found: f32::INFINITY }));
+        assert_eq!(plane(Vec3::X, f64::INFINITY), Err(ClipError::Offset { found: f64::INFINITY }));
         let turned = Aabb { min: Vec3::ONE, max: Vec3::ZERO };
         let error = Clip::default().and_box(&turned).expect_err("refused").to_string();
         assert!(error.starts_with("clip box: needed finite corners"), "{error}");

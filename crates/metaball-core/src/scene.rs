@@ -1,6 +1,6 @@
 //! A scene: balls, one kernel, one threshold.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use thiserror::Error;
 
 use crate::{Aabb, Color, Kernel, Metaball, Support};
@@ -19,6 +19,7 @@ pub struct Scene {
     kernel: Kernel,
     kernel_form: KernelForm,
     threshold: f32,
+    origin: DVec3,
 }
 
 /// How much of the kernel is compiled into renderers.
@@ -137,6 +138,7 @@ impl Scene {
             kernel,
             kernel_form,
             threshold,
+            origin: DVec3::ZERO,
         })
     }
 
@@ -167,6 +169,13 @@ impl Scene {
         check_threshold(threshold)?;
         self.threshold = threshold;
         Ok(self)
+    }
+
+    /// The same scene, whose coordinates begin at this point of its file's.
+    #[must_use]
+    pub fn with_origin(mut self, origin: DVec3) -> Self {
+        self.origin = origin;
+        self
     }
 
     /// The same scene, for which renderers read what could be compiled in. Hits are the same; colours,
@@ -247,6 +256,12 @@ impl Scene {
     /// T: the field on the surface.
     pub fn threshold(&self) -> f32 {
         self.threshold
+    }
+
+    /// Where the scene's coordinates begin in those of the file that it came from, whose coordinates can
+    /// be too large for f32: add this to a point of the scene to have the file's.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
     }
 
     /// The smallest box around all support spheres; empty for an empty scene.

@@ -100,7 +100,7 @@ fn wrong_pixels(
     let scene = Scene::new([ball], Kernel::QUARTIC, 0.25).expect("legal");
     let scene = scene.with_colors(vec![Color::srgb(200, 100, 50)]).expect("a colour a ball");
     let tree = Tree::build(&scene, &Options::certified()).expect("legal");
-    let clip = Clip::default().and_plane(Vec3::Y, HEIGHT).expect("a plane");
+    let clip = Clip::default().and_plane(Vec3::Y, HEIGHT.into()).expect("a plane");
     let tracer = Faulty {
         cut: ClippedTracer::new(Tracer::new(&tree, &scene), clip).expect("certified"),
         whole: Tracer::new(&tree, &scene),

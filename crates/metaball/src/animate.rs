@@ -107,7 +107,7 @@ pub fn animate(
     let (mut camera, mut lighting) = (*scene.camera(), None);
     if draw.viewpoint.is_asked() || draw.light.is_asked() {
         let first = scene.frame(scene.frames().start).map_err(Error::Frames)?;
-        camera = draw.viewpoint.camera(&camera, first.bounds().center())?;
+        camera = draw.viewpoint.camera(&camera, &first)?;
         let is_lit = draw.light.is_asked();
         lighting = is_lit.then(|| draw.light.lighting(&camera, &first)).transpose()?;
     }
@@ -135,7 +135,7 @@ pub fn animate(
         job.draw(&missing, options.in_turn, |frame| on_event(AnimationEvent::Done(frame)))?;
 
     let whole = numbers.has_all();
-    let about = (job.scene.name(), &opened);
+    let about = (job.scene, &opened);
     let report =
         AnimationReport::new(about, options, (kept, numbers.absent), frames, start.elapsed());
     let json = serde_json::to_vec_pretty(&report).map_err(|source| PictureFileError::Encode {
@@ -191,7 +191,7 @@ mod tests {
 
     use bench_scenes::{Moving, Overrides};
     use metaball_core::gpu::{AdapterChoice, Gpu};
-    use particle_files::Sequence;
+    use particle_files::{ReadOptions, Sequence};
 
     use super::*;
     use crate::{Backend, LightOptions};
@@ -300,7 +300,9 @@ mod tests {
             let table = format!("x,y,z,radius\n{number},0,0,{radius}\n");
             fs::write(folder.join(format!("p{number}.csv")), table).expect("written");
         }
-        let files = Sequence::open(folder.join("p%d.csv"), &Overrides::default()).expect("there");
+        let files =
+            Sequence::open(folder.join("p%d.csv"), &ReadOptions::default(), &Overrides::default())
+                .expect("there");
         let options = options(Backend::Cpu, folder);
         let report =
             run(&files, &AnimateOptions { sheet: Some(folder.join("s.png")), ..options.clone() });
@@ -325,7 +327,8 @@ mod tests {
             let table = format!("x,y,z,radius\n{number},0,0,1\n");
             fs::write(folder.join(format!("p{number}.csv")), table).expect("written");
         }
-        Sequence::open(folder.join("p%d.csv"), &Overrides::default()).expect("there")
+        Sequence::open(folder.join("p%d.csv"), &ReadOptions::default(), &Overrides::default())
+            .expect("there")
     }
 
     #[test]

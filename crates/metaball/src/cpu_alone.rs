@@ -55,7 +55,7 @@ mod tests {
 
     fn corner() -> Clip {
         CORNER.iter().fold(Clip::default(), |clip, &(normal, offset)| {
-            clip.and_plane(normal, offset).expect("a plane")
+            clip.and_plane(normal, offset.into()).expect("a plane")
         })
     }
 

@@ -29,7 +29,8 @@ pub struct DrawOptions {
     pub viewpoint: Viewpoint,
     /// What the picture shows.
     pub picture: Picture,
-    /// The region that the solid is cut to, with filled faces. Needs the certified tree, and the CPU.
+    /// The region that the solid is cut to, with filled faces, in the coordinates of the scene's file
+    /// ([`Scene::origin`]). Needs the certified tree, and the CPU.
     pub clip: Clip,
     /// Ray traced light, instead of the shared Phong picture.
     pub light: LightOptions,
@@ -238,7 +239,7 @@ pub(crate) fn on_cpu(
     computed_by: String,
 ) -> Result<Drawing, Error> {
     let built = Built::new(&options.method, scene)?;
-    let tracer = built.tracer(scene, &options.clip)?;
+    let tracer = built.tracer(scene, &options.clip_of(scene))?;
     let painter = Painter::new(&tracer, scene, view, options, lighting)?;
     let planes = painter.planes(true, true);
     let mut whole = Band::default();
@@ -274,8 +275,13 @@ impl DrawOptions {
     /// The view that is drawn; `camera` is the scene's own.
     pub(crate) fn view(&self, scene: &Scene, camera: &Camera) -> Result<View, Error> {
         let (width, height) = self.size;
-        let camera = self.viewpoint.camera(camera, scene.bounds().center())?;
+        let camera = self.viewpoint.camera(camera, scene)?;
         Ok(View::new(camera, width, height)?)
+    }
+
+    /// The region that the solid is cut to, in the scene's coordinates.
+    pub(crate) fn clip_of(&self, scene: &Scene) -> Clip {
+        self.clip.clone().relative_to(scene.origin())
     }
 
     /// Opens what draws it.

@@ -120,7 +120,7 @@ impl Job<'_> {
         let Self { scene, view, options, outputs, .. } = *self;
         let lighting = options.lighting(view, scene)?;
         let built = Built::new(&options.method, scene)?;
-        let tracer = built.tracer(scene, &options.clip)?;
+        let tracer = built.tracer(scene, &options.clip_of(scene))?;
         let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref())?;
         let planes = painter.planes(outputs.hits.is_some(), outputs.light.is_some());
         let description = Description::new(scene, view, options, planes);

@@ -2,12 +2,12 @@
 //! machine has: a graphics adapter, or else the CPU.
 //!
 //! ```
-//! use metaball::{Backend, DrawOptions, Overrides, draw, load};
+//! use metaball::{Backend, DrawOptions, Overrides, ReadOptions, draw, load};
 //!
 //! # let folder = tempfile::tempdir()?;
 //! # let file = folder.path().join("water.xyz");
 //! # std::fs::write(&file, "3\nwater\nO 0 0 0.12\nH 0 0.76 -0.48\nH 0 -0.76 -0.48\n")?;
-//! let water = load(file, &Overrides::default())?;
+//! let water = load(file, &ReadOptions::default(), &Overrides::default())?;
 //! let options = DrawOptions { size: (160, 120), backend: Backend::Cpu, ..DrawOptions::default() };
 //! let drawing = draw(&water.scene, &water.camera, &options)?;
 //! println!("{} of {} rays hit", drawing.hit_count(), drawing.hits.len());
@@ -36,12 +36,15 @@ mod animate;
 mod backend;
 mod band;
 mod certain;
+mod convert;
 mod cpu;
 mod cpu_alone;
 mod draw;
+mod emptiness;
 mod error;
 mod files;
 mod inputs;
+mod legend;
 mod light;
 mod method;
 mod spool;
@@ -52,9 +55,12 @@ pub use animate::{
     AnimateOptions, AnimationEvent, AnimationReport, FrameOutcome, FrameReport, FrameTimes, animate,
 };
 pub use backend::Backend;
+pub use convert::convert_file;
 pub use draw::{DrawOptions, Drawing, draw};
+pub use emptiness::Emptiness;
 pub use error::Error;
 pub use files::{Outputs, draw_to_files};
+pub use legend::{legend_svg, save_legend};
 pub use light::{FloorKind, LightOptions};
 pub use metaball_core::gpu::AdapterChoice;
 pub use metaball_core::{
@@ -64,7 +70,8 @@ pub use metaball_core::{
 pub use method::Choosing;
 pub use method::Method;
 pub use particle_files::{
-    AnimatedScene, BoxError, Loaded, NumberedPath, Overrides, Sequence, inputs, load,
+    AnimatedScene, BoxError, Cell, ColorBy, Legend, Loaded, Note, NoteKind, Notes, NumberedPath,
+    Overrides, ReadOptions, Rule, Scale, Selection, Sequence, Substance, Unit, inputs, load,
 };
 pub use summary::{Progress, Stage, Summary, Tally};
 pub use viewpoint::Viewpoint;

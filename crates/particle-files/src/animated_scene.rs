@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use metaball_core::{Camera, Scene};
 
+use crate::notes::Notes;
+
 /// Any error of an [`AnimatedScene`].
 pub type BoxError = Box<dyn std::error::Error + Send + Sync>;
 
@@ -22,6 +24,11 @@ pub trait AnimatedScene: Sync {
 
     /// The frames that it has; where it never ends, its first seconds.
     fn frames(&self) -> Range<u32>;
+
+    /// What was read of the first frame's file, guessed and left out; nothing where there is no file.
+    fn notes(&self) -> Option<&Notes> {
+        None
+    }
 
     /// The numbers of frames in a range for which there is something to draw.
     ///

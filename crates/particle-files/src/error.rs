@@ -10,18 +10,20 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// The ending of a file's name is that of no format.
-    #[error("{file}: needed a particle file ({endings}, each of these also with .gz)")]
+    /// A file's content is that of no format.
+    #[error("{file}: needed particles in one of the formats {formats}; found {found}")]
     UnknownFormat {
         /// The path.
         file: String,
-        /// The endings there are, separated by commas.
-        endings: String,
+        /// The names of the formats, separated by commas.
+        formats: String,
+        /// What the content looks like.
+        found: String,
     },
     /// A file has the particles of one scene where frames were needed.
     #[error(
-        "{file}: needed a particle file for each frame, such as frame-%04d.xyz, a scene file that names \
-         such particles, or a .frames file"
+        "{file}: needed a particle file for each frame, such as frame-%04d.xyz, a file that holds several \
+         frames, a scene file that names either, or a .frames file; found one frame"
     )]
     NotASequence {
         /// The path.
@@ -40,7 +42,7 @@ pub enum LoadError {
     Content {
         /// Where the problem is.
         location: Location,
-        /// What was needed and what was found.
+        /// What was needed, what was found, and the way out.
         problem: String,
     },
     /// An argument or an override cannot be used.
@@ -58,13 +60,15 @@ pub enum LoadError {
     Scene(#[from] SceneError),
 }
 
-/// A position in a file. Lines and columns count from 1; what is not known is `None`.
+/// A position in a file. Lines and columns count from 1, bytes from 0; what is not known is `None`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Location {
     /// The path; `None` for bytes that came without one.
     pub file: Option<String>,
     /// The line.
     pub line: Option<usize>,
+    /// The byte, of a binary format.
+    pub byte: Option<usize>,
     /// The column: of text in a scene file or a structure, of fields in a table.
     pub column: Option<usize>,
     /// The key of a scene file, or the name of a table's column.
@@ -83,12 +87,14 @@ impl fmt::Display for Location {
     /// For instance `pool.csv, line 3, column 4 (radius)`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let line = self.line.map(|line| format!("line {line}"));
+        let byte = self.byte.map(|byte| format!("byte {byte}"));
         let column = match (self.column, &self.key) {
             (Some(column), Some(key)) => Some(format!("column {column} ({key})")),
             (Some(column), None) => Some(format!("column {column}")),
             (None, key) => key.clone(),
         };
-        let known: Vec<String> = [self.file.clone(), line, column].into_iter().flatten().collect();
+        let known = [self.file.clone(), line, byte, column];
+        let known: Vec<String> = known.into_iter().flatten().collect();
         formatter.write_str(&known.join(", "))
     }
 }
@@ -111,9 +117,21 @@ impl Flaw {
         Self::new(format!("needed {needed}, found {found}"))
     }
 
+    /// The flaw with what can be done about it.
+    pub(crate) fn or(mut self, way_out: impl fmt::Display) -> Self {
+        self.problem = format!("{}; {way_out}", self.problem);
+        self
+    }
+
     /// The flaw at a line, counted from 1.
     pub(crate) fn at_line(mut self, line: usize) -> Self {
         self.location.line = Some(line);
+        self
+    }
+
+    /// The flaw at a byte, counted from 0.
+    pub(crate) fn at_byte(mut self, byte: usize) -> Self {
+        self.location.byte = Some(byte);
         self
     }
 

@@ -1,35 +1,94 @@
 //! Files by name: their ending, and their bytes.
 
 use std::borrow::Cow;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-use crate::error::LoadError;
+use crate::error::{Flaw, LoadError};
 
-/// What a file's name ends in, in lower case and without the dot. A `.gz` after it is left out.
+/// The name that stands for standard input.
+pub(crate) const STANDARD_INPUT: &str = "-";
+
+/// What a file's name ends in, in lower case and without the dot. A `.gz` or `.zst` after it is left out.
 pub(crate) fn ending(path: &Path) -> Option<String> {
-    let name = path.file_name()?.to_str()?.to_ascii_lowercase();
-    let (_, ending) = name.strip_suffix(".gz").unwrap_or(&name).rsplit_once('.')?;
+    let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+    let unpacked = [".gz", ".zst"].iter().find_map(|packing| name.strip_suffix(packing));
+    let (_, ending) = unpacked.unwrap_or(&name).rsplit_once('.')?;
     Some(ending.to_owned())
 }
 
-/// The bytes of a file, unpacked if its name ends in `.gz`.
+/// How a file is called in messages.
+pub(crate) fn named(path: &Path) -> String {
+    if path == Path::new(STANDARD_INPUT) {
+        return "standard input".to_owned();
+    }
+    path.display().to_string()
+}
+
+/// The bytes of a file, unpacked.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
-    let bytes = std::fs::read(path)
-        .map_err(|source| LoadError::Read { file: path.display().to_string(), source })?;
+    let bytes = if path == Path::new(STANDARD_INPUT) {
+        let mut bytes = Vec::new();
+        io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+    } else {
+        std::fs::read(path)
+    };
+    let bytes = bytes.map_err(|source| LoadError::Read { file: named(path), source })?;
     Ok(unpacked(path, bytes.into())?.into_owned())
 }
 
-/// The bytes of a file of that name, unpacked if it ends in `.gz`.
+/// The bytes of a file of that name, unpacked where they are packed.
 pub(crate) fn unpacked<'a>(path: &Path, bytes: Cow<'a, [u8]>) -> Result<Cow<'a, [u8]>, LoadError> {
-    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("gz")) {
-        return Ok(bytes);
-    }
     let mut unpacked = Vec::new();
-    MultiGzDecoder::new(&*bytes)
-        .read_to_end(&mut unpacked)
-        .map_err(|source| LoadError::Read { file: path.display().to_string(), source })?;
-    Ok(unpacked.into())
+    let read = match *bytes {
+        [0x1f, 0x8b, ..] => MultiGzDecoder::new(&*bytes).read_to_end(&mut unpacked),
+        [0x28, 0xb5, 0x2f, 0xfd, ..] => unpack_zstd(&bytes, &mut unpacked),
+        [b'B', b'Z', b'h', b'1'..=b'9', ..] => return Err(other_packing(path, "bzip2")),
+        [0xfd, b'7', b'z', b'X', b'Z', ..] => return Err(other_packing(path, "xz")),
+        [b'7', b'z', 0xbc, 0xaf, ..] => return Err(other_packing(path, "7z")),
+        _ => return Ok(bytes),
+    };
+    match read {
+        Ok(_) => Ok(unpacked.into()),
+        Err(source) => Err(LoadError::Read { file: named(path), source }),
+    }
+}
+
+/// All frames of a zstd file, one behind the other.
+fn unpack_zstd(mut packed: &[u8], unpacked: &mut Vec<u8>) -> io::Result<usize> {
+    while !packed.is_empty() {
+        let mut decoder =
+            ruzstd::decoding::StreamingDecoder::new(&mut packed).map_err(io::Error::other)?;
+        decoder.read_to_end(unpacked)?;
+    }
+    Ok(unpacked.len())
+}
+
+fn other_packing(path: &Path, packing: &str) -> LoadError {
+    Flaw::needed("a file that is plain, or packed with gzip or zstd", packing)
+        .or(format!("unpack it and pack it with gzip, or read it from {packing} with -"))
+        .in_file(&named(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_are_those_before_packing() {
+        for (name, expected) in
+            [("b.CIF.gz", "cif"), ("a/b.xyz.zst", "xyz"), ("c.csv", "csv"), ("d.csv.bz2", "bz2")]
+        {
+            assert_eq!(ending(Path::new(name)).as_deref(), Some(expected));
+        }
+        assert_eq!(ending(Path::new("csv")), None);
+    }
+
+    #[test]
+    fn other_packings_are_named() {
+        let error = unpacked(Path::new("a.pdb.bz2"), b"BZh91AY"[..].into()).expect_err("refused");
+        assert!(error.to_string().contains("gzip or zstd, found bzip2"), "{error}");
+    }
 }

@@ -1,17 +1,22 @@
 //! Scenes of files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use metaball_core::{Camera, Scene};
+use glam::DVec3;
+use metaball_core::{Aabb, Camera, Kernel, Scene};
 
+use crate::cell::Cell;
+use crate::coloring::Legend;
 use crate::error::{Flaw, LoadError};
-use crate::file;
+use crate::file::{self, named};
 use crate::formats::PackedFrames;
-use crate::framing::{FRONT, framing};
+use crate::framing::{FRONT, framing, near_bounds};
+use crate::notes::{Notes, counted};
+use crate::options::ReadOptions;
 use crate::overrides::Overrides;
 use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
 use crate::read::read;
-use crate::scene_file::SceneFile;
+use crate::scene_file::{SceneCamera, SceneFile};
 
 /// What was loaded from a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,28 +28,81 @@ pub struct Loaded {
     pub scene: Scene,
     /// The scene file's camera, or one that frames the particles.
     pub camera: Camera,
+    /// The periodic cell, in the coordinates of the file, in the unit of the scene.
+    pub cell: Option<Cell>,
+    /// What the colours say, where a column gave them.
+    pub legend: Option<Legend>,
+    /// What was read, guessed and left out.
+    pub notes: Notes,
 }
 
-/// The scene of a particle file, or of a scene file (`.toml`) that names one.
+/// The scene of a particle file, or of a scene file (`.toml`) that names one; `-` is standard input.
 ///
 /// # Errors
-/// Names the file with line and column or key, or the override, what was needed and what was found.
-pub fn load(path: impl AsRef<Path>, overrides: &Overrides) -> Result<Loaded, LoadError> {
+/// Names the file with line and column or key, or the option, what was needed and what was found.
+pub fn load(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+    overrides: &Overrides,
+) -> Result<Loaded, LoadError> {
     let path = path.as_ref();
-    let (scene, camera) = match file::ending(path).as_deref() {
-        Some(SceneFile::ENDING) => {
-            let SceneFile { particles, kernel, threshold, camera } = SceneFile::open(path)?;
-            (read(particles)?.into_scene(kernel, threshold)?, camera)
-        }
-        Some(PackedFrames::ENDING) => {
-            let flaw = Flaw::needed("the particles of one scene", "those of many frames");
-            return Err(flaw.in_file(&path.display().to_string()));
-        }
-        _ => (read(path)?.into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD)?, None),
+    let source = Source::of(path)?;
+    if file::ending(&source.particles).as_deref() == Some(PackedFrames::ENDING) {
+        let flaw = Flaw::needed("the particles of one scene", "those of many frames");
+        return Err(flaw.in_file(&path.display().to_string()));
+    }
+    let mut particles = read(&source.particles, options)?;
+    let mut notes = std::mem::take(&mut particles.notes);
+    let (cell, legend) = (particles.cell, particles.legend.take());
+    let scene = particles.into_scene(source.kernel, source.threshold)?;
+    if scene.origin() != DVec3::ZERO {
+        notes.changed(format!(
+            "coordinates begin at {}: f32 moves what is far from it",
+            scene.origin()
+        ));
+    }
+    let camera = match &source.camera {
+        Some(camera) => camera.at(scene.origin()).map_err(|flaw| flaw.in_file(&named(path)))?,
+        None => framing(&framed(&scene, options, &mut notes), FRONT),
     };
-    Ok(Loaded {
-        name: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        camera: camera.unwrap_or_else(|| framing(&scene.bounds(), FRONT)),
-        scene: overrides.apply(scene)?,
-    })
+    let scene = overrides.apply(scene)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Loaded { name, scene, camera, cell, legend, notes })
+}
+
+/// A particle file, and how its balls make a surface.
+pub(crate) struct Source {
+    pub(crate) particles: PathBuf,
+    pub(crate) kernel: Kernel,
+    pub(crate) threshold: f32,
+    pub(crate) camera: Option<SceneCamera>,
+}
+
+impl Source {
+    /// The one that a scene file says; any other file under the default kernel and threshold.
+    pub(crate) fn of(path: &Path) -> Result<Self, LoadError> {
+        if file::ending(path).as_deref() == Some(SceneFile::ENDING) {
+            let SceneFile { particles, kernel, threshold, camera } = SceneFile::open(path)?;
+            return Ok(Self { particles, kernel, threshold, camera });
+        }
+        let (kernel, threshold) = (DEFAULT_KERNEL, DEFAULT_THRESHOLD);
+        Ok(Self { particles: path.to_owned(), kernel, threshold, camera: None })
+    }
+}
+
+/// The box that the camera frames: all balls, or those that are not far out.
+fn framed(scene: &Scene, options: &ReadOptions, notes: &mut Notes) -> Aabb {
+    let bounds = scene.bounds();
+    if options.frame_all {
+        return bounds;
+    }
+    let (near, outside) = near_bounds(scene);
+    if outside == 0 {
+        return bounds;
+    }
+    notes.guessed(format!(
+        "the camera leaves out {} far from the others (--frame-all shows all)",
+        counted(outside, "particle")
+    ));
+    near
 }

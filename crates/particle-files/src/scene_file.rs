@@ -3,16 +3,16 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::{DVec3, Vec3};
 use metaball_core::{Camera, Kernel};
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::error::{Flaw, LoadError};
+use crate::error::{Flaw, LoadError, Location};
 use crate::file;
-use crate::formats::Format;
 use crate::overrides::kernel_named;
 use crate::particles::DEFAULT_THRESHOLD;
-use crate::text::text;
+use crate::text::utf8;
 
 /// What a scene file says.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,24 +22,45 @@ pub(crate) struct SceneFile {
     pub(crate) kernel: Kernel,
     pub(crate) threshold: f32,
     /// `None` for one that frames the particles.
-    pub(crate) camera: Option<Camera>,
+    pub(crate) camera: Option<SceneCamera>,
+}
+
+/// A camera in the coordinates of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SceneCamera {
+    eye: DVec3,
+    look_at: DVec3,
+    up: Option<Vec3>,
+    vertical_fov_degrees: f32,
+    /// Where it stands in its file.
+    location: Location,
+}
+
+impl SceneCamera {
+    /// The camera of a scene whose coordinates begin at `origin`.
+    pub(crate) fn at(&self, origin: DVec3) -> Result<Camera, Flaw> {
+        let [eye, look_at] = [self.eye, self.look_at].map(|point| (point - origin).as_vec3());
+        let degrees = self.vertical_fov_degrees;
+        match self.up {
+            Some(up) => Camera::look_at(eye, look_at, up, degrees),
+            None => Camera::upright(eye, look_at, degrees),
+        }
+        .map_err(|error| Flaw { location: self.location.clone(), problem: error.to_string() })
+    }
 }
 
 impl SceneFile {
     /// What the name of a scene file ends in.
     pub(crate) const ENDING: &'static str = "toml";
 
-    /// Reads a scene file. The particle file that it names is one by its ending; it is not opened.
+    /// Reads a scene file. The particle file that it names is not opened.
     pub(crate) fn open(path: &Path) -> Result<Self, LoadError> {
         let named = path.display().to_string();
         let bytes = file::read(path)?;
-        let scene_file = text(&bytes).and_then(parse).map_err(|flaw| flaw.in_file(&named))?;
-        if Format::of(&scene_file.particles).is_none() {
-            let mut endings: Vec<String> = Format::endings().collect();
-            let last = endings.pop().unwrap_or_default();
-            let needed =
-                format!("a {} or {last} file, or one of these with .gz", endings.join(", "));
-            let flaw = Flaw::needed(&needed, format_args!("{:?}", scene_file.particles));
+        let scene_file = utf8(&bytes).and_then(parse).map_err(|flaw| flaw.in_file(&named))?;
+        if file::ending(&scene_file.particles).as_deref() == Some(Self::ENDING) {
+            let needed = "a file of particles, not another scene file";
+            let flaw = Flaw::needed(needed, format_args!("{:?}", scene_file.particles));
             return Err(flaw.at_key("particles").in_file(&named));
         }
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -60,8 +81,8 @@ struct Keys {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CameraKeys {
-    eye: [f32; 3],
-    look_at: [f32; 3],
+    eye: [f64; 3],
+    look_at: [f64; 3],
     up: Option<[f32; 3]>,
     #[serde(default = "field_of_view")]
     vertical_fov_degrees: f32,
@@ -109,14 +130,17 @@ fn kernel(keys: &Keys, text: &str) -> Result<Kernel, Flaw> {
         .map_err(|error| flaw(&error, "exponent", exponent.span().start))
 }
 
-fn camera_of(keys: &Spanned<CameraKeys>, text: &str) -> Result<Camera, Flaw> {
+fn camera_of(keys: &Spanned<CameraKeys>, text: &str) -> Result<SceneCamera, Flaw> {
     let CameraKeys { eye, look_at, up, vertical_fov_degrees } = *keys.get_ref();
-    let (eye, look_at) = (eye.into(), look_at.into());
-    match up {
-        Some(up) => Camera::look_at(eye, look_at, up.into(), vertical_fov_degrees),
-        None => Camera::upright(eye, look_at, vertical_fov_degrees),
-    }
-    .map_err(|error| at(Flaw::new(error.to_string()), text, keys.span().start))
+    let camera = SceneCamera {
+        eye: eye.into(),
+        look_at: look_at.into(),
+        up: up.map(Vec3::from_array),
+        vertical_fov_degrees,
+        location: at(Flaw::new(""), text, keys.span().start).location,
+    };
+    // Whatever is wrong with it is wrong at any origin.
+    camera.at(camera.look_at).map(|_| camera)
 }
 
 /// The flaw at a byte of the text.
@@ -153,16 +177,12 @@ vertical_fov_degrees = 40
     #[test]
     fn every_key_is_read() {
         let file = parse(FULL).expect("legal");
-        let camera = Camera::look_at(Vec3::new(2.2, 1.7, 3.4), Vec3::ZERO, Vec3::Y, 40.0);
-        assert_eq!(
-            file,
-            SceneFile {
-                particles: "pool.csv".into(),
-                kernel: Kernel::power(3).expect("legal"),
-                threshold: 0.2,
-                camera: camera.ok(),
-            }
-        );
+        assert_eq!(file.particles, Path::new("pool.csv"));
+        assert_eq!((file.kernel, file.threshold), (Kernel::power(3).expect("legal"), 0.2));
+        let camera = |eye, look_at| Camera::look_at(eye, look_at, Vec3::Y, 40.0).expect("legal");
+        let at = |origin| file.camera.as_ref().expect("a camera").at(origin).expect("legal");
+        assert_eq!(at(DVec3::ZERO), camera(Vec3::new(2.2, 1.7, 3.4), Vec3::ZERO));
+        assert_eq!(at(DVec3::Y).eye(), Vec3::new(2.2, 0.7, 3.4));
     }
 
     #[test]
@@ -204,7 +224,7 @@ vertical_fov_degrees = 40
         let from_above = FULL.replace("[2.2, 1.7, 3.4]", "[0.0, 9.0, 0.0]");
         assert!(refusal(&from_above).contains("camera up: needed"));
         let upright = parse(&from_above.replace("up = [0.0, 1.0, 0.0]", "")).expect("legal");
-        assert!(upright.camera.expect("a camera").up().z > 0.99);
+        assert!(upright.camera.expect("a camera").at(DVec3::ZERO).expect("legal").up().z > 0.99);
         assert!(with("[2.2, 1.7, 3.4]", "[2.2, 1.7]").starts_with("a.toml, line 7, column 7:"));
         assert!(with("0.2\n", "\n").starts_with("a.toml, line 5"));
         assert!(with("eye", "eyes").contains("unknown field `eyes`"));

@@ -3,18 +3,22 @@
 use std::ops::Range;
 use std::path::Path;
 
+use glam::DVec3;
 use metaball_core::{Aabb, Camera, Kernel, Scene};
 
 use crate::animated_scene::{AnimatedScene, BoxError};
+use crate::cell::Cell;
 use crate::error::LoadError;
 use crate::file;
 use crate::formats::PackedFrames;
 use crate::framing::{FRONT, framing};
+use crate::load::Source;
+use crate::notes::Notes;
 use crate::numbered_path::NumberedPath;
+use crate::options::{ReadOptions, parameter};
 use crate::overrides::Overrides;
 use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, Particles};
-use crate::read::{format_of, read};
-use crate::scene_file::SceneFile;
+use crate::read::{Content, read};
 
 /// The frames of files. They are independent of each other: any can be had, in any order and from any
 /// thread, and is the same each time as long as its file is.
@@ -23,62 +27,96 @@ pub struct Sequence {
     name: String,
     camera: Camera,
     range: Range<u32>,
-    frames: Frames,
+    files: Files,
+    common: Common,
     overrides: Overrides,
+    notes: Notes,
+    cell: Option<Cell>,
 }
 
-/// Where frames come from.
+/// Where the particles of frames come from.
 #[derive(Debug)]
-enum Frames {
-    /// A file for each.
-    Numbered(NumberedFiles),
-    /// One file with all of them.
+enum Files {
+    /// A file for each frame.
+    Numbered(NumberedPath, ReadOptions),
+    /// One that holds many.
+    One(Content<'static>, ReadOptions),
+    /// One packed file with all of them.
     Packed(PackedFrames),
 }
 
+/// What all frames have in common.
 #[derive(Debug)]
-struct NumberedFiles {
-    files: NumberedPath,
+struct Common {
     kernel: Kernel,
     threshold: f32,
     /// Where files leave the radius to the particles' spacing, all frames have the same: a surface does
     /// not breathe, and shaders are made once.
     spacing_radius: Option<f32>,
+    /// Where the coordinates of all scenes begin.
+    origin: Option<DVec3>,
 }
 
 impl Sequence {
     /// The sequence of a particle file for each frame (`fluid-%04d.xyz`, a [`NumberedPath`] whose numbers
-    /// are those of frames), of a scene file that names such particles, or of a `.frames` file.
+    /// are those of frames), of one file that holds many frames, of a scene file that names such
+    /// particles, or of a `.frames` file.
     ///
-    /// The camera is the scene file's, or one that frames the first and the last file. Where files leave
-    /// the radius to the particles' spacing, that of the first readable one is every frame's.
+    /// The camera is the scene file's, or one that frames the first and the last frame. Where files leave
+    /// the radius to the particles' spacing, that of the first readable frame is every frame's; so is its
+    /// scene's origin.
     ///
     /// # Errors
     /// [`LoadError::NotASequence`] where there is only one scene; else as [`load`](crate::load()).
-    pub fn open(path: impl AsRef<Path>, overrides: &Overrides) -> Result<Self, LoadError> {
+    pub fn open(
+        path: impl AsRef<Path>,
+        options: &ReadOptions,
+        overrides: &Overrides,
+    ) -> Result<Self, LoadError> {
         let path = path.as_ref();
         let name = path.display().to_string();
-        let (particles, kernel, threshold, camera) = match file::ending(path).as_deref() {
-            Some(PackedFrames::ENDING) => {
-                let content = PackedFrames::content(&file::read(path)?);
-                let frames = content.map_err(|flaw| flaw.in_file(&name))?;
-                return Self::packed(&name, frames, overrides);
+        if options.frame.is_some() {
+            return Err(parameter("frame", "none for a sequence, which has all", "one"));
+        }
+        if file::ending(path).as_deref() == Some(PackedFrames::ENDING) {
+            if *options != ReadOptions::default() {
+                return Err(parameter("options of reading", "none for packed frames", "some"));
             }
-            Some(SceneFile::ENDING) => {
-                let SceneFile { particles, kernel, threshold, camera } = SceneFile::open(path)?;
-                (particles, kernel, threshold, camera)
-            }
-            _ => {
-                format_of(path)?;
-                (path.to_owned(), DEFAULT_KERNEL, DEFAULT_THRESHOLD, None)
+            let content = PackedFrames::content(&file::read(path)?);
+            let frames = content.map_err(|flaw| flaw.in_file(&name))?;
+            return Self::packed(&name, frames, overrides);
+        }
+        let Source { particles, kernel, threshold, camera } = Source::of(path)?;
+        let files = Files::open(&particles, &name, options)?;
+        let numbers = files.numbers()?;
+        let (Some(first), Some(last)) = (numbers.first(), numbers.last()) else {
+            return Err(parameter(&name, "at least one file of this name", "none"));
+        };
+        let mut readable = numbers.iter().map(|number| (number, files.particles(*number)));
+        let (number, mut particles) = match readable.find(|(_, particles)| particles.is_ok()) {
+            Some((number, particles)) => (number, particles?),
+            None => (first, files.particles(*first)?),
+        };
+        let spacing_radius = particles.spacing_radius();
+        let mut common = Common { kernel, threshold, spacing_radius, origin: None };
+        let (cell, notes) = (particles.cell, std::mem::take(&mut particles.notes));
+        let scene = common.scene(particles)?;
+        let origin = scene.origin();
+        common.origin = Some(origin);
+        let camera = match camera {
+            Some(camera) => camera.at(origin).map_err(|flaw| flaw.in_file(&name))?,
+            None => {
+                let bounds = |number: &u32| -> Result<Aabb, LoadError> {
+                    Ok(common.scene(files.particles(*number)?)?.bounds())
+                };
+                let of_first = if number == first { scene.bounds() } else { bounds(first)? };
+                let of_last = if last == number { scene.bounds() } else { bounds(last)? };
+                framing(&of_first.union(&of_last), FRONT)
             }
         };
-        if !particles.file_name().is_some_and(|name| name.to_string_lossy().contains('%')) {
-            return Err(LoadError::NotASequence { file: name });
-        }
-        let (files, range, camera) = NumberedFiles::open(&particles, kernel, threshold, camera)?;
-        let frames = Frames::Numbered(files);
-        Ok(Self { name, camera, range, frames, overrides: *overrides })
+        let range = *first..last.saturating_add(1);
+        let overrides = *overrides;
+        Ok(Self { name, camera, range, files, common, overrides, notes, cell })
     }
 
     /// The sequence of packed frames, under the default kernel and threshold.
@@ -91,13 +129,26 @@ impl Sequence {
         overrides: &Overrides,
     ) -> Result<Self, LoadError> {
         let range = 0..frames.count();
-        let frames = Frames::Packed(frames);
+        let common = Common {
+            kernel: DEFAULT_KERNEL,
+            threshold: DEFAULT_THRESHOLD,
+            spacing_radius: None,
+            origin: Some(DVec3::ZERO),
+        };
         let mut bounds = Aabb::EMPTY;
         for number in range.clone() {
-            bounds = bounds.union(&frames.scene(number)?.bounds());
+            bounds = bounds.union(&common.scene(frames.frame(number))?.bounds());
         }
-        let camera = framing(&bounds, FRONT);
-        Ok(Self { name: name.to_owned(), camera, range, frames, overrides: *overrides })
+        Ok(Self {
+            name: name.to_owned(),
+            camera: framing(&bounds, FRONT),
+            range,
+            files: Files::Packed(frames),
+            common,
+            overrides: *overrides,
+            notes: Notes::default(),
+            cell: None,
+        })
     }
 
     /// The path that it was opened by.
@@ -108,6 +159,16 @@ impl Sequence {
     /// What replaces every scene's own choices.
     pub fn overrides(&self) -> &Overrides {
         &self.overrides
+    }
+
+    /// What was read, guessed and left out in the first frame.
+    pub fn notes(&self) -> &Notes {
+        &self.notes
+    }
+
+    /// The periodic cell of the first frame.
+    pub fn cell(&self) -> Option<Cell> {
+        self.cell
     }
 
     /// A camera for all frames.
@@ -125,7 +186,7 @@ impl Sequence {
     /// # Errors
     /// When there is no such frame, or its file cannot be used: names it.
     pub fn frame(&self, number: u32) -> Result<Scene, LoadError> {
-        self.overrides.apply(self.frames.scene(number)?)
+        self.overrides.apply(self.common.scene(self.files.particles(number)?)?)
     }
 
     /// The numbers of frames in a range that are there now.
@@ -133,13 +194,8 @@ impl Sequence {
     /// # Errors
     /// When the files' folder cannot be read.
     pub fn present(&self, range: Range<u32>) -> Result<Vec<u32>, LoadError> {
-        match &self.frames {
-            Frames::Numbered(NumberedFiles { files, .. }) => {
-                let numbers = files.numbers()?.into_iter();
-                Ok(numbers.filter(|number| range.contains(number)).collect())
-            }
-            Frames::Packed(frames) => Ok((range.start..range.end.min(frames.count())).collect()),
-        }
+        let numbers = self.files.numbers()?.into_iter();
+        Ok(numbers.filter(|number| range.contains(number)).collect())
     }
 }
 
@@ -149,7 +205,11 @@ impl AnimatedScene for Sequence {
     }
 
     fn description(&self) -> String {
-        format!("{} with {:?}", self.name(), self.overrides())
+        let options = match &self.files {
+            Files::Numbered(_, options) | Files::One(_, options) => format!("{options:?}"),
+            Files::Packed(_) => String::new(),
+        };
+        format!("{} with {:?} {options}", self.name(), self.overrides())
     }
 
     fn camera(&self) -> &Camera {
@@ -158,6 +218,10 @@ impl AnimatedScene for Sequence {
 
     fn frames(&self) -> Range<u32> {
         self.frames()
+    }
+
+    fn notes(&self) -> Option<&Notes> {
+        Some(self.notes())
     }
 
     fn present(&self, range: Range<u32>) -> Result<Vec<u32>, BoxError> {
@@ -169,73 +233,51 @@ impl AnimatedScene for Sequence {
     }
 }
 
-impl Frames {
-    fn scene(&self, number: u32) -> Result<Scene, LoadError> {
+impl Files {
+    /// Those of a path with a `%`, or one that holds frames.
+    fn open(path: &Path, name: &str, options: &ReadOptions) -> Result<Self, LoadError> {
+        let options = options.clone();
+        if path.file_name().is_some_and(|name| name.to_string_lossy().contains('%')) {
+            return Ok(Self::Numbered(path.display().to_string().parse()?, options));
+        }
+        let content = Content::new(path, file::read(path)?.into())?;
+        if content.frames() < 2 {
+            return Err(LoadError::NotASequence { file: name.to_owned() });
+        }
+        Ok(Self::One(content, options))
+    }
+
+    /// The numbers of the frames that are there.
+    fn numbers(&self) -> Result<Vec<u32>, LoadError> {
         match self {
-            Self::Numbered(files) => files.scene(files.particles(number)?),
-            Self::Packed(frames) if number < frames.count() => {
-                frames.frame(number).into_scene(DEFAULT_KERNEL, DEFAULT_THRESHOLD)
+            Self::Numbered(files, _) => files.numbers(),
+            Self::One(content, _) => {
+                Ok((0..u32::try_from(content.frames()).unwrap_or(u32::MAX)).collect())
             }
-            Self::Packed(frames) => Err(LoadError::Parameter {
-                name: "frame".to_owned(),
-                needed: format!("a number below {}", frames.count()),
-                found: number.to_string(),
-            }),
+            Self::Packed(frames) => Ok((0..frames.count()).collect()),
+        }
+    }
+
+    fn particles(&self, number: u32) -> Result<Particles, LoadError> {
+        match self {
+            Self::Numbered(files, options) => read(files.path(number), options),
+            Self::One(content, options) => {
+                content.particles(&ReadOptions { frame: Some(number), ..options.clone() })
+            }
+            Self::Packed(frames) if number < frames.count() => Ok(frames.frame(number)),
+            Self::Packed(frames) => {
+                Err(parameter("frame", &format!("a number below {}", frames.count()), number))
+            }
         }
     }
 }
 
-impl NumberedFiles {
-    /// The files, the numbers from the first to the last, and the camera. No file is read twice.
-    fn open(
-        path: &Path,
-        kernel: Kernel,
-        threshold: f32,
-        camera: Option<Camera>,
-    ) -> Result<(Self, Range<u32>, Camera), LoadError> {
-        let name = path.display().to_string();
-        let files: NumberedPath = name.parse()?;
-        let numbers = files.numbers()?;
-        let [first, later @ ..] = numbers.as_slice() else {
-            return Err(LoadError::Parameter {
-                name,
-                needed: "at least one file of this name".to_owned(),
-                found: "none".to_owned(),
-            });
-        };
-        let last = later.last();
-        let range = *first..last.unwrap_or(first).saturating_add(1);
-        let mut opened = Self { files, kernel, threshold, spacing_radius: None };
-        let of_first = opened.particles(*first);
-        opened.spacing_radius = match &of_first {
-            Ok(particles) => particles.spacing_radius,
-            Err(_) => {
-                let readable = later.iter().find_map(|number| opened.particles(*number).ok());
-                readable.and_then(|particles| particles.spacing_radius)
-            }
-        };
-        let camera = match camera {
-            Some(camera) => camera,
-            None => {
-                let mut bounds = opened.scene(of_first?)?.bounds();
-                if let Some(last) = last {
-                    bounds = bounds.union(&opened.scene(opened.particles(*last)?)?.bounds());
-                }
-                framing(&bounds, FRONT)
-            }
-        };
-        Ok((opened, range, camera))
-    }
-
-    fn particles(&self, number: u32) -> Result<Particles, LoadError> {
-        read(self.files.path(number))
-    }
-
+impl Common {
     fn scene(&self, particles: Particles) -> Result<Scene, LoadError> {
         let particles = match self.spacing_radius {
             Some(radius) => particles.respaced(radius),
             None => particles,
         };
-        particles.into_scene(self.kernel, self.threshold)
+        particles.into_scene_at(self.origin, self.kernel, self.threshold)
     }
 }

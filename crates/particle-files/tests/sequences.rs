@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use metaball_core::Kernel;
-use particle_files::{LoadError, Overrides, Sequence, pack_frames};
+use particle_files::{LoadError, Overrides, ReadOptions, Sequence, pack_frames};
 
 fn get(path: impl AsRef<Path>) -> Result<Sequence, LoadError> {
-    Sequence::open(path, &Overrides::default())
+    Sequence::open(path, &ReadOptions::default(), &Overrides::default())
 }
 
 /// An empty folder for one test, of that name.
@@ -23,7 +23,7 @@ fn folder(test: &str) -> PathBuf {
 fn numbered_files_are_frames() {
     let folder = folder("numbered");
     for number in [3, 5, 8] {
-        let table = format!("x,y,z,radius\n{number},0,0,1\n");
+        let table = format!("x,y,z,support_radius\n{number},0,0,1\n");
         fs::write(folder.join(format!("p-{number:03}.csv")), table).expect("writable");
     }
     let sequence = get(folder.join("p-%03d.csv")).expect("legal");
@@ -32,7 +32,7 @@ fn numbered_files_are_frames() {
     assert_eq!(sequence.frame(5).expect("a file").supports()[0].center, Vec3::new(5.0, 0.0, 0.0));
     let missing = sequence.frame(4).expect_err("no file").to_string();
     assert!(missing.starts_with("cannot read ") && missing.ends_with("p-004.csv"), "{missing}");
-    fs::write(folder.join("p-005.csv"), "x,y,z,radius\n0,0,0,much\n").expect("writable");
+    fs::write(folder.join("p-005.csv"), "x,y,z,support_radius\n0,0,0,much\n").expect("writable");
     let broken = sequence.frame(5).expect_err("no number").to_string();
     assert!(broken.contains("p-005.csv, line 2"), "{broken}");
 
@@ -68,7 +68,7 @@ fn frames_without_radii_have_that_of_the_first() {
     // What says its radius keeps it.
     let own = "1\nProperties=pos:R:3:radius:R:1\n0 0 0 0.5\n";
     fs::write(folder.join("p4.xyz"), own).expect("writable");
-    assert_eq!(radius(4), 0.5);
+    assert_eq!(radius(4), 0.5 * std::f32::consts::SQRT_2);
 }
 
 #[test]
@@ -86,13 +86,29 @@ fn packed_frames_are_a_sequence() {
 
 #[test]
 fn a_single_scene_is_no_sequence() {
-    let scene = folder("single").join("scene.toml");
+    let folder = folder("single");
+    let (table, scene) = (folder.join("p.csv"), folder.join("scene.toml"));
+    fs::write(&table, "x,y,z\n0,0,0\n").expect("writable");
     fs::write(&scene, "particles = 'p.csv'").expect("writable");
-    for single in [Path::new("p.csv"), &scene] {
+    for single in [&table, &scene] {
         let error = get(single).expect_err("one scene");
         assert!(matches!(error, LoadError::NotASequence { .. }), "{error}");
     }
-    assert!(matches!(get("p.doc"), Err(LoadError::UnknownFormat { .. })));
-    let none = get(folder("none").join("%d.xyz")).expect_err("none").to_string();
+    let none = get(folder.join("%d.xyz")).expect_err("none").to_string();
     assert!(none.ends_with("needed at least one file of this name, found none"), "{none}");
+}
+
+#[test]
+fn one_file_holds_many_frames() {
+    let file = folder("many").join("many.xyz");
+    let frame = |x: u32| format!("2\n\nbead {x} 0 0\nbead {x} 0 3\n");
+    fs::write(&file, [frame(0), frame(1), frame(2)].concat()).expect("writable");
+    let sequence = get(&file).expect("legal");
+    assert_eq!((sequence.frames(), sequence.present(1..7).expect("no folder")), (0..3, vec![1, 2]));
+    let second = sequence.frame(1).expect("there").supports()[0];
+    assert_eq!((second.center, second.radius), (Vec3::X, 6.0));
+    assert!(sequence.frame(3).expect_err("the last is 2").to_string().contains("from 0 to 2"));
+    let options = ReadOptions { frame: Some(1), ..ReadOptions::default() };
+    let alone = particle_files::load(&file, &options, &Overrides::default()).expect("legal");
+    assert_eq!(alone.scene.supports()[0].center, Vec3::X);
 }

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use particle_files::AnimatedScene;
+
 use super::AnimateOptions;
 use crate::backend::Opened;
 
@@ -13,6 +15,8 @@ use crate::backend::Opened;
 pub struct AnimationReport {
     /// What moves.
     pub scene: String,
+    /// What was read of the first frame's file, guessed and left out.
+    pub notes: Vec<String>,
     /// Name of the method.
     pub method: String,
     /// What computed, in words.
@@ -94,7 +98,7 @@ pub(super) fn milliseconds(time: Duration) -> f64 {
 
 impl AnimationReport {
     pub(super) fn new(
-        (scene, opened): (&str, &Opened),
+        (scene, opened): (&dyn AnimatedScene, &Opened),
         options: &AnimateOptions,
         (kept, absent): (Vec<u32>, Vec<[u32; 2]>),
         frames: Vec<FrameReport>,
@@ -111,7 +115,8 @@ impl AnimationReport {
             )
         });
         Self {
-            scene: scene.to_owned(),
+            scene: scene.name().to_owned(),
+            notes: scene.notes().into_iter().flatten().map(ToString::to_string).collect(),
             method: options.draw.method.name().to_owned(),
             computed_by: opened.describe(),
             size: options.draw.size,

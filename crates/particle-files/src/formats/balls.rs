@@ -6,10 +6,21 @@ use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use glam::{DVec3, Vec3};
-use metaball_core::{Metaball, Scene};
+use metaball_core::Scene;
 
+use super::{Reader, Request, Span};
 use crate::error::{Flaw, LoadError};
-use crate::particles::Particles;
+use crate::notes::Notes;
+use crate::table::{Table, Values};
+
+pub(super) const READER: Reader = Reader {
+    name: "balls16",
+    endings: &["balls"],
+    is_text: false,
+    recognizes: |bytes| bytes.starts_with(MAGIC),
+    frames: |bytes| Ok(vec![Span::whole(bytes)]),
+    table: |bytes: &[u8], _: &Span, _: &Request, _: &mut Notes| parse(bytes),
+};
 
 const MAGIC: &[u8; 8] = b"balls16\n";
 
@@ -59,7 +70,7 @@ fn compress(plain: &[u8]) -> Vec<u8> {
 }
 
 /// Reads a `.balls` file.
-pub(super) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
+fn parse(bytes: &[u8]) -> Result<Table, Flaw> {
     let stream = bytes
         .strip_prefix(MAGIC)
         .ok_or_else(|| Flaw::needed("the first bytes \"balls16\\n\"", "others"))?;
@@ -83,20 +94,22 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Particles, Flaw> {
     let (least, step) =
         (DVec3::from_array(least.map(f64::from)), Vec3::new(step_x, step_y, step_z).as_dvec3());
 
-    let mut balls = vec![Metaball::new(Vec3::ZERO, radius); count];
+    let mut positions = vec![DVec3::ZERO; count];
     for (axis, column) in steps.chunks_exact((2 * count).max(1)).enumerate() {
         let mut steps = 0_u16;
-        for (ball, difference) in balls.iter_mut().zip(column.chunks_exact(2)) {
+        for (position, difference) in positions.iter_mut().zip(column.chunks_exact(2)) {
             steps = steps.wrapping_add(u16::from_le_bytes([difference[0], difference[1]]));
-            ball.center[axis] = (least[axis] + f64::from(steps) * step[axis]) as f32;
+            position[axis] = least[axis] + f64::from(steps) * step[axis];
         }
     }
-    Ok(Particles { balls, ..Particles::default() })
+    let mut table = Table { positions, ..Table::default() };
+    table.add("support_radius", Values::Numbers(vec![f64::from(radius); count]));
+    Ok(table)
 }
 
 #[cfg(test)]
 mod tests {
-    use metaball_core::Kernel;
+    use metaball_core::{Kernel, Metaball};
     use proptest::prelude::*;
 
     use super::*;
@@ -136,12 +149,13 @@ mod tests {
             centers in prop::collection::vec(prop::array::uniform3(-100.0f32..100.0), 0..50),
         ) {
             let read = parse(&pack_balls(&scene(&centers)).expect("legal")).expect("legal");
-            prop_assert_eq!(read.balls.len(), centers.len());
-            for (ball, center) in read.balls.iter().zip(&centers) {
-                let moved = (ball.center - Vec3::from_array(*center)).abs().max_element();
+            prop_assert_eq!(read.len(), centers.len());
+            for (position, center) in read.positions.iter().zip(&centers) {
+                let moved = (position.as_vec3() - Vec3::from_array(*center)).abs().max_element();
                 prop_assert!(moved <= 0.5 * 200.0 / 65_535.0 + 4.0 * 6e-8 * 200.0);
-                prop_assert_eq!(ball.radius, 0.5);
             }
+            let radii = Values::Numbers(vec![0.5; centers.len()]);
+            prop_assert_eq!(read.column("support_radius").map(|column| &column.values), Some(&radii));
         }
 
         #[test]
