@@ -203,6 +203,8 @@ fn prepared(
     if let Method::Auto(choosing) = &options.method {
         return chosen(gpu, options, choosing, scene, view);
     }
+    #[cfg(not(feature = "harness"))]
+    let _asked_by_auto_alone = view;
     let mut renderer = options.renderer()?;
     let build = renderer.build(gpu, scene)?.structure;
     Ok(Prepared { renderer, build, account: options.method.account() })
