@@ -14,7 +14,7 @@ cargo xtask test                 formatting, lints, all tests, packages and docu
 cargo xtask setup                makes sure that a Vulkan adapter exists, and does nothing else
 cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` in release mode:
                                  compare, score, diff, chart, stability, certify, render,
-                                 animate, tables, scenes, methods; `help` lists them
+                                 animate, convert, tables, scenes, methods; `help` lists them
 
 They set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the
 rights to do so, they install Mesa's software one. With --cpu none is needed, nor for render and
@@ -57,7 +57,7 @@ fn needs_adapter(command: &str, arguments: &[String]) -> bool {
         arguments.iter().any(name)
     };
     match command {
-        "scenes" | "methods" | "score" | "diff" => false,
+        "scenes" | "methods" | "score" | "diff" | "convert" => false,
         "render" | "animate" => asks_for(&["--software", "--adapter"]),
         _ => !asks_for(&["--cpu"]),
     }
