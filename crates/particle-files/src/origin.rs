@@ -1,6 +1,7 @@
 //! Where a scene's coordinates begin: particles far from their file's origin lose digits in f32.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::particles::Radii;
 use crate::spacing::picked;
@@ -16,7 +17,7 @@ pub(crate) fn origin_of(positions: &[DVec3], radii: &Radii<'_>) -> DVec3 {
         let moved = (position - position.as_vec3().as_dvec3()).abs().max_element();
         moved * 4096.0 > f64::from(radii.get(index))
     };
-    if !positions.iter().enumerate().any(is_moved) {
+    if !positions.par_iter().enumerate().any(is_moved) {
         return DVec3::ZERO;
     }
     let middle = middle(positions);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use metaball_core::{Color, Kernel, Metaball, Scene, SceneError};
+use rayon::prelude::*;
 
 use crate::cell::Cell;
 use crate::coloring::Legend;
@@ -146,7 +147,7 @@ impl Particles {
         let too_far = |(index, position): (usize, &DVec3)| {
             moved(position) > PART * f64::from(radii.get(index))
         };
-        match self.positions.iter().enumerate().position(too_far) {
+        match self.positions.par_iter().enumerate().position_first(too_far) {
             None => Ok(()),
             Some(index) => {
                 let found = self.positions[index];
