@@ -1,22 +1,61 @@
 //! Cameras that frame particles.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use metaball_core::{Aabb, Camera, Scene};
 
+use crate::cell::Cell;
+use crate::notes::{Notes, counted};
+use crate::options::ReadOptions;
 use crate::origin::middle;
 
 /// From the middle of a file's particles to the eye: the front, a little from the right and above.
 pub(crate) const FRONT: Vec3 = Vec3::new(0.4, 0.3, 1.0);
 
+/// What is seen of a box around support spheres: they are larger than the surface.
+const SEEN: f32 = 0.88;
+
 /// A camera that shows the box from `direction` (from its middle to the eye), nearer than one that
 /// is sure to show its corners: supports are larger than what is seen of them.
 pub fn framing(bounds: &Aabb, direction: Vec3) -> Camera {
-    const SEEN: f32 = 0.88;
     if bounds.is_empty() {
         return Camera::framing(bounds, direction);
     }
     let (center, half) = (bounds.center(), 0.5 * SEEN * bounds.extent());
     Camera::framing(&Aabb { min: center - half, max: center + half }, direction)
+}
+
+/// The box for a camera to frame: all balls, or those that are not far out; where the surface goes on
+/// across the faces of the periodic cell, that cell.
+pub(crate) fn framed(
+    scene: &Scene,
+    cell: Option<&Cell>,
+    options: &ReadOptions,
+    notes: &mut Notes,
+) -> Aabb {
+    if let (Some(cell), true) = (cell, options.periodic) {
+        return bounds_of_cell(cell, scene.origin());
+    }
+    let bounds = scene.bounds();
+    if options.frame_all {
+        return bounds;
+    }
+    let (near, outside) = near_bounds(scene);
+    if outside == 0 {
+        return bounds;
+    }
+    notes.guessed(format!(
+        "the camera leaves out {} far from the others (--frame-all shows all)",
+        counted(outside, "particle")
+    ));
+    near
+}
+
+/// The box around a cell, in coordinates that begin at `origin`. All of a cell is seen.
+fn bounds_of_cell(cell: &Cell, origin: DVec3) -> Aabb {
+    let [a, b, c] = cell.edges;
+    let middle = cell.origin - origin + 0.5 * (a + b + c);
+    let half = 0.5 * (a.abs() + b.abs() + c.abs()) / f64::from(SEEN);
+    Aabb { min: (middle - half).as_vec3(), max: (middle + half).as_vec3() }
 }
 
 /// The box around the balls that are not far out, and how many are: farther from the middle of all than

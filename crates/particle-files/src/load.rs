@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use metaball_core::{Aabb, Camera, Kernel, Scene};
+use metaball_core::{Camera, Kernel, Scene};
 
 use crate::cell::Cell;
 use crate::coloring::Legend;
 use crate::error::{Flaw, LoadError};
 use crate::file::{self, named};
 use crate::formats::PackedFrames;
-use crate::framing::{FRONT, framing, near_bounds};
-use crate::notes::{Notes, counted};
+use crate::framing::{FRONT, framed, framing};
+use crate::notes::Notes;
 use crate::options::ReadOptions;
 use crate::overrides::Overrides;
 use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
@@ -63,7 +63,7 @@ pub fn load(
     }
     let camera = match &source.camera {
         Some(camera) => camera.at(scene.origin()).map_err(|flaw| flaw.in_file(&named(path)))?,
-        None => framing(&framed(&scene, options, &mut notes), FRONT),
+        None => framing(&framed(&scene, cell.as_ref(), options, &mut notes), FRONT),
     };
     let scene = overrides.apply(scene)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -88,21 +88,4 @@ impl Source {
         let (kernel, threshold) = (DEFAULT_KERNEL, DEFAULT_THRESHOLD);
         Ok(Self { particles: path.to_owned(), kernel, threshold, camera: None })
     }
-}
-
-/// The box that the camera frames: all balls, or those that are not far out.
-fn framed(scene: &Scene, options: &ReadOptions, notes: &mut Notes) -> Aabb {
-    let bounds = scene.bounds();
-    if options.frame_all {
-        return bounds;
-    }
-    let (near, outside) = near_bounds(scene);
-    if outside == 0 {
-        return bounds;
-    }
-    notes.guessed(format!(
-        "the camera leaves out {} far from the others (--frame-all shows all)",
-        counted(outside, "particle")
-    ));
-    near
 }

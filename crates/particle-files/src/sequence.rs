@@ -11,7 +11,7 @@ use crate::cell::Cell;
 use crate::error::LoadError;
 use crate::file;
 use crate::formats::PackedFrames;
-use crate::framing::{FRONT, framing};
+use crate::framing::{FRONT, framed, framing};
 use crate::load::Source;
 use crate::notes::Notes;
 use crate::numbered_path::NumberedPath;
@@ -99,18 +99,23 @@ impl Sequence {
         };
         let spacing_radius = particles.spacing_radius();
         let mut common = Common { kernel, threshold, spacing_radius, origin: None };
-        let (cell, notes) = (particles.cell, std::mem::take(&mut particles.notes));
+        let (cell, mut notes) = (particles.cell, std::mem::take(&mut particles.notes));
         let scene = common.scene(particles)?;
         let origin = scene.origin();
         common.origin = Some(origin);
         let camera = match camera {
             Some(camera) => camera.at(origin).map_err(|flaw| flaw.in_file(&name))?,
             None => {
-                let bounds = |number: &u32| -> Result<Aabb, LoadError> {
-                    Ok(common.scene(files.particles(*number)?)?.bounds())
+                let mut bounds = |number_of: &u32| -> Result<Aabb, LoadError> {
+                    if number_of == number {
+                        return Ok(framed(&scene, cell.as_ref(), options, &mut notes));
+                    }
+                    let particles = files.particles(*number_of)?;
+                    let cell = particles.cell;
+                    let scene = common.scene(particles)?;
+                    Ok(framed(&scene, cell.as_ref(), options, &mut Notes::default()))
                 };
-                let of_first = if number == first { scene.bounds() } else { bounds(first)? };
-                let of_last = if last == number { scene.bounds() } else { bounds(last)? };
+                let (of_first, of_last) = (bounds(first)?, bounds(last)?);
                 framing(&of_first.union(&of_last), FRONT)
             }
         };
