@@ -115,7 +115,8 @@ fn frames(bytes: &[u8]) -> Result<Vec<Span>, Flaw> {
     let size = size.filter(|_| header.atoms > 0);
     let count = size.map_or(0, |size| rest / size);
     let is_whole = size.is_some_and(|size| rest % size == 0);
-    if !is_whole || (header.frames != 0 && header.frames != count) {
+    // A run that ends early leaves the number of frames that it was to have.
+    if !is_whole || (header.frames != 0 && header.frames < count) {
         let frames = match header.frames {
             0 => "whole frames".to_owned(),
             frames => counted(frames, "frame"),
@@ -130,8 +131,13 @@ fn frames(bytes: &[u8]) -> Result<Vec<Span>, Flaw> {
     Ok((0..count).map(|frame| Span { bytes: start(frame)..start(frame + 1), line: 1 }).collect())
 }
 
-fn table(bytes: &[u8], span: &Span, _: &Request, _: &mut Notes) -> Result<Table, Flaw> {
+fn table(bytes: &[u8], span: &Span, _: &Request, notes: &mut Notes) -> Result<Table, Flaw> {
     let header = Header::of(bytes)?;
+    let there = (bytes.len() - header.end) / span.bytes.len().max(1);
+    if header.frames > there {
+        let said = counted(header.frames, "frame");
+        notes.left_out(format!("the header says {said}, and {there} are in the file"));
+    }
     let mut cursor = Cursor::new(&bytes[..span.bytes.end], span.bytes.start, header.order);
     let cell = match header.has_cell {
         true => cell(bytes, record(&mut cursor, "the cell")?, header.order),
@@ -217,7 +223,7 @@ mod tests {
     #[test]
     fn frames_of_both_orders_are_read() {
         for order in [ByteOrder::Little, ByteOrder::Big] {
-            for (claimed, angle) in [(2, 90.0), (0, 0.0)] {
+            for (claimed, angle) in [(2, 90.0), (0, 0.0), (5, 90.0)] {
                 let bytes = file(order, claimed, 0, angle);
                 assert!(recognizes(&bytes));
                 assert_eq!(frames(&bytes).expect("legal").len(), 2);
@@ -243,10 +249,10 @@ mod tests {
     #[test]
     fn refusals_say_both_numbers() {
         let problem = |bytes: &[u8]| read(bytes, 0).expect_err("refused").problem;
-        let bytes = file(ByteOrder::Little, 3, 0, 90.0);
+        let bytes = file(ByteOrder::Little, 1, 0, 90.0);
         assert_eq!(
             problem(&bytes),
-            "needed 3 frames of 2 atoms as the header says, found 2 in 208 bytes"
+            "needed 1 frame of 2 atoms as the header says, found 2 in 208 bytes"
         );
         let cut = file(ByteOrder::Little, 2, 0, 90.0);
         let cut = &cut[..cut.len() - 3];

@@ -93,37 +93,43 @@ fn table(bytes: &[u8], span: &Span, request: &Request, notes: &mut Notes) -> Res
         }
         Ok(())
     })?;
-    let edges = box_of(last).ok_or_else(|| {
-        let found = format!("{:?}", word(last));
-        let needed = format!("the box of 3 or 9 numbers behind {}", counted(count, "atom"));
-        Flaw::needed(&needed, found).at_line(first + count)
-    })?;
     let mut table = atoms.table(notes);
-    table.cell = Cell::new(edges);
+    // Programs without periodic cells end the file before the box.
+    table.cell = match last {
+        None => {
+            notes.read("no box behind the atoms");
+            None
+        }
+        Some(last) => Cell::new(box_of(last).ok_or_else(|| {
+            let found = format!("{:?}", word(last));
+            let needed = format!("the box of 3 or 9 numbers behind {}", counted(count, "atom"));
+            Flaw::needed(&needed, found).at_line(first + count)
+        })?),
+    };
     table.unit = Some(Unit::Nanometre);
     Ok(table)
 }
 
-/// The lines of so many atoms, and the line behind them.
-fn split(rest: &[u8], count: usize, line: usize) -> Result<(&[u8], &[u8]), Flaw> {
-    let too_few = |found: usize| {
-        let needed = format!("{} as line {} says, and the box", counted(count, "atom"), line + 1);
-        let found = format!("the end of the file after {}", counted(found, "line"));
-        Flaw::needed(&needed, found).at_line(line + 2)
-    };
+/// The lines of so many atoms, and the line behind them if there is one.
+fn split(rest: &[u8], count: usize, line: usize) -> Result<(&[u8], Option<&[u8]>), Flaw> {
+    let lines = || memchr::memchr_iter(b'\n', rest).count() + usize::from(!rest.ends_with(b"\n"));
     let end = match count {
         0 => 0,
-        _ => {
-            let found = || memchr::memchr_iter(b'\n', rest).count();
-            let mut ends = memchr::memchr_iter(b'\n', rest);
-            ends.nth(count - 1).ok_or_else(|| too_few(found()))? + 1
-        }
+        _ => match memchr::memchr_iter(b'\n', rest).nth(count - 1) {
+            Some(end) => end + 1,
+            None if !rest.is_empty() && lines() == count => rest.len(),
+            None => {
+                let atoms = counted(count, "atom");
+                let needed = format!("{atoms} as line {} says, and the box", line + 1);
+                let found = if rest.is_empty() { 0 } else { lines() };
+                let found = format!("the end of the file after {}", counted(found, "line"));
+                return Err(Flaw::needed(&needed, found).at_line(line + 2));
+            }
+        },
     };
     let (rows, behind) = rest.split_at(end);
-    match behind.trim_ascii().is_empty() {
-        true => Err(too_few(count)),
-        false => Ok((rows, first_line(behind).0)),
-    }
+    let last = (!behind.trim_ascii().is_empty()).then(|| first_line(behind).0);
+    Ok((rows, last))
 }
 
 /// The edges of a box: their lengths, or `xx yy zz xy xz yx yz zx zy`.
@@ -287,8 +293,14 @@ mod tests {
         let touching = WATER.replace("   2.0 3.0 4.0", "20000.0000030000.0000040000.00000");
         let (table, _) = read_all(&touching).expect("legal");
         assert_eq!(table.cell.map(|cell| cell.edges[2].z), Some(40_000.0));
-        let (table, _) = read_all(&WATER.replace("2.0 3.0 4.0", "0 0 0")).expect("legal");
-        assert_eq!(table.cell, None);
+        for without in [
+            WATER.replace("2.0 3.0 4.0", "0 0 0"),
+            WATER.replace("   2.0 3.0 4.0\n", ""),
+            WATER.replace("\n   2.0 3.0 4.0\n", ""),
+        ] {
+            let (table, _) = read_all(&without).expect("legal");
+            assert_eq!((table.len(), table.cell), (3, None), "{without}");
+        }
     }
 
     #[test]
