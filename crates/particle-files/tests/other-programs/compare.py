@@ -143,9 +143,15 @@ def of_gemmi(folder):
         model = gemmi.read_structure(str(path))[0]
         atoms = [atom for chain in model for residue in chain for atom in residue]
         atoms = [atom for atom in atoms if not atom.name.startswith("MW")]
+        # gemmi brings the residues of a chain together; serial numbers have the order of the file.
+        atoms.sort(key=lambda atom: atom.serial)
         if any(atom.altloc != "\0" for atom in atoms):
             continue
-        yield path, [atom.pos.tolist() for atom in atoms], [atom.element.name for atom in atoms], ()
+        # Where a file names no element, gemmi takes the first letters of names: every CA is calcium.
+        with open(path, encoding="latin-1") as file:
+            named = any(line.startswith("ATOM") and line[76:78].strip() for line in file)
+        elements = [atom.element.name for atom in atoms] if named else None
+        yield path, [atom.pos.tolist() for atom in atoms], elements, ()
 
 
 def of_mdanalysis(folder):
