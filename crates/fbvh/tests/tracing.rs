@@ -327,10 +327,15 @@ fn false_answer(
         return None;
     }
     // Certainty is promised to 1e4 radii. Beyond, f64 may not decide, and then must say so; as it may not
-    // where Perlin's kernel, 1 − 10ρ³ at its centre, alone touches T there with neither slope nor curvature.
+    // where a ball of strength T touches T at its centre: if Perlin's kernel, 1 − 10ρ³ there, has neither
+    // slope nor curvature, or if another ball's support begins at that point, before which the field is T
+    // to its last bits.
     let radii = |ball: Metaball| ball.center.distance(ray.origin) / ball.radius;
-    let is_flat =
-        |ball: Metaball| scene.kernel() == Kernel::Perlin && ball.strength == scene.threshold();
+    let is_flat = |ball: Metaball| {
+        let begins_there = |other: Metaball| other.center.distance(ball.center) == other.radius;
+        ball.strength == scene.threshold()
+            && (scene.kernel() == Kernel::Perlin || scene.balls().any(begins_there))
+    };
     let promised = scene.balls().all(|ball| radii(ball) < 1e5 && !is_flat(ball));
     if !promised && [hit.verdict, any, exit.verdict].contains(&Verdict::Undecided) {
         return None;
@@ -386,6 +391,26 @@ fn false_answers_are_complained_of() {
     let ray = Ray::new(Vec3::new(0.1, 0.2, -4.0), Vec3::Z);
     assert_eq!(tracer.any_hit(&ray), Verdict::Hit);
     assert_eq!(tracer.any_hit(&Ray { t_max: 2.0, ..ray }), Verdict::Miss);
+}
+
+/// A ball of strength T touches T at its centre, and another ball's support begins there: f64 does not
+/// tell where the field begins to be above T, and says so.
+#[test]
+fn a_touch_where_a_support_begins_is_decided_or_said_to_be_undecided() {
+    let kernel = Kernel::power(1).expect("legal");
+    let (large, small) = (Vec3::new(-1.0, 2.0, 0.0), Vec3::new(-1.0, 2.0, 1.0));
+    let balls = [Metaball::new(small, 1.0), Metaball::new(large, 2.0)];
+    let scene = Scene::new(balls, kernel, 1.0).expect("legal");
+    let oracle = Oracle::new(&scene);
+    let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
+    let tracer = Tracer::new(&tree, &scene);
+    for step in 0..200 {
+        let step = step as f32;
+        let start =
+            5.0 * Vec3::new((0.377 * step).sin(), (0.811 * step).cos(), (1.37 * step).sin());
+        let ray = Ray::new(start, (large - start).normalize());
+        assert_eq!(false_answer((&scene, &oracle), &ray, &Answers::of(&tracer, &ray)), None);
+    }
 }
 
 #[test]
