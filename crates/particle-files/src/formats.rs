@@ -187,6 +187,13 @@ impl Format {
         possible.clone().find(hinted).or_else(|| possible.next())
     }
 
+    /// The format of a text that its content does not tell, by the ending of its name: one whose reader
+    /// says which line is not as it should be.
+    pub(crate) fn of_ending(ending: &str) -> Option<Self> {
+        let by_line = [Self::Xyz, Self::Csv, Self::Gro, Self::Mmcif];
+        by_line.into_iter().find(|format| format.has_ending(ending))
+    }
+
     /// Whether its frames are models with numbers.
     pub(crate) fn has_models(self) -> bool {
         matches!(self, Self::Mmcif | Self::Pdb | Self::Pqr | Self::Pdbqt)
@@ -246,6 +253,14 @@ impl fmt::Display for Format {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn endings_give_a_reader_to_what_no_content_tells() {
+        assert_eq!(Format::of_text(b"lon,lat,depth\n1,2,3\n", Some("csv")), None);
+        assert_eq!(Format::of_ending("csv"), Some(Format::Csv));
+        assert_eq!(Format::of_ending("extxyz"), Some(Format::Xyz));
+        assert_eq!(Format::of_ending("pdb"), None);
+    }
 
     #[test]
     fn every_format_is_listed_and_documented() {

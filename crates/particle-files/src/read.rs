@@ -72,7 +72,8 @@ impl<'a> Content<'a> {
             None => text::decoded(bytes, &mut notes).map_err(|flaw| flaw.in_file(&file))?,
         };
         let format = binary.or_else(|| Format::of_text(&bytes, ending.as_deref()));
-        let format = format.ok_or_else(|| unknown(&file, &bytes))?;
+        let hinted = || ending.as_deref().filter(|_| !bytes.is_empty()).and_then(Format::of_ending);
+        let format = format.or_else(hinted).ok_or_else(|| unknown(&file, &bytes))?;
         notes.read(recognized(format, ending.as_deref()));
         let frames = (format.reader().frames)(&bytes).map_err(|flaw| flaw.in_file(&file))?;
         Ok(Self { file, format, bytes, frames, notes })

@@ -32,22 +32,19 @@ pub(crate) enum Role {
 
 /// Names as [`plain`] has them.
 const NAMES: &[(Role, &[&str])] = &[
-    (Role::X, &["x", "pos x", "position x", "points 0", "coordinates 0", "coord x", "p x", "posx"]),
-    (Role::Y, &["y", "pos y", "position y", "points 1", "coordinates 1", "coord y", "p y", "posy"]),
-    (Role::Z, &["z", "pos z", "position z", "points 2", "coordinates 2", "coord z", "p z", "posz"]),
-    (Role::X, &["positions 0", "pos 0", "position 0", "x coordinate", "center x", "centre x"]),
-    (Role::Y, &["positions 1", "pos 1", "position 1", "y coordinate", "center y", "centre y"]),
-    (Role::Z, &["positions 2", "pos 2", "position 2", "z coordinate", "center z", "centre z"]),
+    (Role::X, &["x", "posx", "xcoord"]),
+    (Role::Y, &["y", "posy", "ycoord"]),
+    (Role::Z, &["z", "posz", "zcoord"]),
     (Role::SupportRadius, &["support radius", "support"]),
     (Role::Radius, &["radius", "radii", "r", "rad", "particle radius", "pscale"]),
     (Role::Diameter, &["diameter", "d", "particle diameter"]),
     (Role::Strength, &["strength"]),
-    (Role::Red, &["red", "cd 0"]),
-    (Role::Green, &["green", "cd 1"]),
-    (Role::Blue, &["blue", "cd 2"]),
+    (Role::Red, &["red", "cd 0", "color 0", "color r", "rgb 0"]),
+    (Role::Green, &["green", "cd 1", "color 1", "color g", "rgb 1"]),
+    (Role::Blue, &["blue", "cd 2", "color 2", "color b", "rgb 2"]),
     (
         Role::Element,
-        &["element", "elements", "species", "symbol", "atomic number", "atomic numbers"],
+        &["element", "elements", "species", "symbol", "atom", "atomic number", "atomic numbers"],
     ),
     (Role::Name, &["name", "atom name"]),
     (Role::Residue, &["residue", "resname", "residue name"]),
@@ -60,11 +57,71 @@ const NAMES: &[(Role, &[&str])] = &[
     (Role::SmoothingLength, &["smoothing length", "h", "hsml"]),
 ];
 
+/// Words beside the letter or the number of an axis in the names of coordinates.
+const PLACES: &[&str] = &[
+    "atom",
+    "center",
+    "centre",
+    "centroid",
+    "com",
+    "coord",
+    "coordinate",
+    "coordinates",
+    "coords",
+    "global",
+    "loc",
+    "location",
+    "mass",
+    "of",
+    "p",
+    "particle",
+    "point",
+    "points",
+    "pos",
+    "position",
+    "positions",
+    "r",
+    "world",
+];
+
+/// Units behind a name without brackets.
+const UNITS: &[&str] = &["m", "cm", "mm", "um", "µm", "μm", "nm", "km", "angstrom"];
+
 impl Role {
     /// The role of a column of that name.
     pub(crate) fn of(name: &str) -> Option<Self> {
-        let plain = plain(name);
-        NAMES.iter().find(|(_, names)| names.contains(&plain.as_str())).map(|(role, _)| *role)
+        let (plain, spaced) = (plain(name), plain(&with_blanks(name)));
+        [plain.as_str(), spaced.as_str()].into_iter().find_map(|plain| {
+            let of_plain = |plain| Self::of_plain(plain).or_else(|| Self::of_place(plain));
+            let without_unit = || match plain.rsplit_once(' ') {
+                Some((name, unit)) if UNITS.contains(&unit) => of_plain(name),
+                _ => None,
+            };
+            of_plain(plain).or_else(without_unit)
+        })
+    }
+
+    fn of_plain(plain: &str) -> Option<Self> {
+        NAMES.iter().find(|(_, names)| names.contains(&plain)).map(|(role, _)| *role)
+    }
+
+    /// The axis of a name like `pos x`, `y position` or `points 2`.
+    fn of_place(plain: &str) -> Option<Self> {
+        let behind = plain.rsplit_once(' ').map(|(words, axis)| (axis, words));
+        [behind, plain.split_once(' ')].into_iter().flatten().find_map(|(axis, words)| {
+            let is_place = words.split(' ').all(|word| PLACES.contains(&word));
+            let is_vector = words != "p" && words != "r";
+            match axis {
+                _ if !is_place => None,
+                "x" => Some(Self::X),
+                "y" => Some(Self::Y),
+                "z" => Some(Self::Z),
+                "0" if is_vector => Some(Self::X),
+                "1" if is_vector => Some(Self::Y),
+                "2" if is_vector => Some(Self::Z),
+                _ => None,
+            }
+        })
     }
 
     /// The axis of a coordinate.
@@ -96,17 +153,37 @@ impl Role {
     }
 }
 
+/// A name with a blank before each capital behind a small letter.
+fn with_blanks(name: &str) -> String {
+    let mut spaced = String::with_capacity(name.len() + 4);
+    let mut last = ' ';
+    for c in name.chars() {
+        if last.is_lowercase() && c.is_uppercase() {
+            spaced.push(' ');
+        }
+        spaced.push(c);
+        last = c;
+    }
+    spaced
+}
+
 /// A name without capitals and without a unit in brackets behind it; what is between its words is one
 /// blank. `Pos.x [m]` and `POS_X` become `pos x`.
 pub(crate) fn plain(name: &str) -> String {
     let name = name.trim_matches(|c: char| c == '"' || c == '\'' || c.is_whitespace());
     let name = match name.find(['[', '(', '{']) {
-        Some(at) if at > 0 => &name[..at],
+        Some(at) if at > 0 && !is_index(&name[at..]) => &name[..at],
         _ => name,
     };
     let lower = name.to_lowercase();
     let words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     words.collect::<Vec<_>>().join(" ")
+}
+
+/// Whether brackets hold a component's number, as in `pos[0]`, and no unit.
+fn is_index(brackets: &str) -> bool {
+    let inside = brackets[1..].trim_end_matches([']', ')', '}']);
+    !inside.is_empty() && inside.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 #[cfg(test)]
@@ -125,10 +202,25 @@ mod tests {
             ("Support Radius", Role::SupportRadius),
             ("Rhop [kg/m^3]", Role::Density),
             ("atomic_number", Role::Element),
+            ("r_x", Role::X),
+            ("pos[1]", Role::Y),
+            ("positionZ", Role::Z),
+            ("CoordinateX", Role::X),
+            ("x_coord", Role::X),
+            ("Y Position", Role::Y),
+            ("center_of_mass_z", Role::Z),
+            ("x/m", Role::X),
+            ("y_mm", Role::Y),
+            ("radius_nm", Role::Radius),
+            ("ParticleRadius", Role::Radius),
+            ("pScale", Role::Radius),
+            ("color:1", Role::Green),
         ] {
             assert_eq!(Role::of(name), Some(role), "{name}");
         }
-        for name in ["Velocity:0", "Vel.x [m/s]", "", "xx", "Ace.x"] {
+        for name in
+            ["Velocity:0", "Vel.x [m/s]", "", "xx", "Ace.x", "r 0", "velocityX", "of mass", "mx"]
+        {
             assert_eq!(Role::of(name), None, "{name}");
         }
     }

@@ -4,14 +4,17 @@
 //! `%` or `//` are comments, but the last of them has the names where it names coordinates. Without
 //! names the first three columns are x, y and z.
 
+mod top;
+mod units;
+
 use super::{Reader, Request, Span};
 use crate::error::Flaw;
 use crate::notes::{Notes, counted};
 use crate::number::{DecimalMark, number};
-use crate::roles::Role;
+use crate::roles::{Role, plain};
 use crate::rows::{Becomes, Field, Rows, Separator, Width};
 use crate::table::Table;
-use crate::text::{lines, word};
+use top::{Header, Top, axis_of, begins_with_numbers, columns, number_of, sample};
 
 pub(super) const READER: Reader = Reader {
     name: "CSV",
@@ -25,57 +28,39 @@ pub(super) const READER: Reader = Reader {
 /// Bytes that start a comment.
 const COMMENT: &[u8] = b"#%";
 
-/// Whether the first line that is no comment has at least three fields: names, or numbers.
+/// Whether the first line that is no comment has at least three fields, names or numbers, or a later one
+/// names coordinates.
 fn recognizes(bytes: &[u8]) -> bool {
     let top = Top::of(bytes);
     let Some((_, line)) = top.first else { return false };
     let columns = columns(line, top.separator());
-    let are_numbers = columns.iter().take(3).all(|column| number_of(column).is_some());
-    columns.len() >= 3 && (are_numbers || columns.iter().any(|name| axis_of(name).is_some()))
-        || top.named_by_comment().is_some()
+    let names_axis = || columns.len() >= 3 && columns.iter().any(|name| axis_of(name).is_some());
+    begins_with_numbers(&columns) || names_axis() || top.named_by_comment().is_some()
 }
 
 /// Reads a table.
 fn table(bytes: &[u8], _: &Span, request: &Request, notes: &mut Notes) -> Result<Table, Flaw> {
     let top = Top::of(bytes);
-    let Some((line, first)) = top.first else {
-        return Err(Flaw::needed("a line of names, then a particle in each line", "no line"));
-    };
-    let separator = top.separator();
-    let found = columns(first, separator);
-    let has_names = !found.iter().all(|field| field.is_empty() || number_of(field).is_some());
-    let (names, line_of_names, first_row) = match &request.names {
-        Some(names) => (names.clone(), line, if has_names { line + 1 } else { line }),
-        None if has_names => (found, line, line + 1),
-        None => match top.named_by_comment() {
-            Some((comment, names)) => (names, comment, line),
-            None => (unnamed(found.len(), notes), line, line),
-        },
-    };
+    let Header { names, line, first_row, separator } = top.header(bytes, request, notes)?;
     let rows_at = offset_of(bytes, first_row);
-    let sample = lines(&bytes[rows_at..], first_row).find(|(_, line)| !is_comment(line));
-    let sample = sample.map(|(_, line)| columns(line, separator)).unwrap_or_default();
+    let sample = sample(&bytes[rows_at..], separator);
     let mark = decimal_mark(separator, &sample);
-    let mut fields =
-        fields(&names, &sample, mark, request).map_err(|flaw| flaw.at_line(line_of_names))?;
+    let mut fields = fields(&names, &sample, mark, request).map_err(|flaw| flaw.at_line(line))?;
     // A name behind the last separator is no column.
     if fields.len() > 3 && names.last().is_some_and(String::is_empty) {
         fields.pop();
     }
     let mut rows = Rows { separator, mark, fields, width: Width::Exactly, skips: Some(COMMENT) };
-    let table = loop {
-        match rows.read(&bytes[rows_at..], first_row) {
-            Err(flaw) if becomes_words(&mut rows, &flaw) => {}
-            read => break read?,
-        }
-    };
+    let mut table = read_rows(&mut rows, &bytes[rows_at..], first_row)?;
+    units::of_coordinates(&names, &mut table, notes);
+    say_times(&names, &bytes[rows_at..], separator, notes);
     let between = match separator {
         Separator::Byte(b',') => "commas",
         Separator::Byte(b';') => "semicolons",
         Separator::Byte(_) => "tabs",
         Separator::Blanks => "blanks",
     };
-    let comma = if mark == DecimalMark::Comma { ", decimal commas" } else { "" };
+    let comma = if rows.mark == DecimalMark::Comma { ", decimal commas" } else { "" };
     notes.read(format!("{} between {} in a row{comma}", between, counted(names.len(), "field")));
     let ignored = rows.fields.iter().filter(|field| field.becomes == Becomes::Nothing);
     let ignored: Vec<&str> =
@@ -86,64 +71,43 @@ fn table(bytes: &[u8], _: &Span, request: &Request, notes: &mut Notes) -> Result
     Ok(table)
 }
 
-/// The beginning of a table.
-struct Top<'a> {
-    /// The first line that is no comment, with its number.
-    first: Option<(usize, &'a [u8])>,
-    /// The last comment before it.
-    comment: Option<(usize, &'a [u8])>,
-}
-
-impl<'a> Top<'a> {
-    fn of(bytes: &'a [u8]) -> Self {
-        let mut comment = None;
-        for (number, line) in lines(bytes, 1) {
-            let line = line.trim_ascii();
-            if line.starts_with(b"#") || line.starts_with(b"%") || line.starts_with(b"//") {
-                comment = Some((number, line));
-            } else if !line.is_empty() {
-                return Self { first: Some((number, line)), comment };
+/// The rows; what looked like numbers may turn out to be words, or to have decimal commas, further down.
+fn read_rows(rows: &mut Rows, bytes: &[u8], first_row: usize) -> Result<Table, Flaw> {
+    loop {
+        match rows.read(bytes, first_row) {
+            Err(flaw) if becomes_words(rows, &flaw) => {}
+            Err(flaw) if rows.mark == DecimalMark::Point && has_own_commas(rows, &flaw) => {
+                let with_commas = Rows { mark: DecimalMark::Comma, ..rows.clone() };
+                let table = with_commas.read(bytes, first_row).map_err(|_| flaw)?;
+                *rows = with_commas;
+                return Ok(table);
             }
+            read => return read,
         }
-        Self { first: None, comment }
-    }
-
-    fn separator(&self) -> Separator {
-        let line = self.first.map(|(_, line)| line).unwrap_or_default();
-        separator_of(line)
-    }
-
-    /// The names that the last comment has, if coordinates are among them, as many as there are fields.
-    fn named_by_comment(&self) -> Option<(usize, Vec<String>)> {
-        let (number, comment) = self.comment?;
-        let text = comment.trim_ascii_start();
-        let marks = text.iter().take_while(|byte| b"#%/".contains(byte)).count();
-        let text = text[marks..].trim_ascii();
-        let names = columns(text, separator_of(text));
-        let axes = names.iter().filter(|name| axis_of(name).is_some()).count();
-        (axes >= 3).then_some((number, names))
     }
 }
 
-/// What stands between the fields of a line.
-fn separator_of(line: &[u8]) -> Separator {
-    let has = |byte: u8| memchr::memchr(byte, line).is_some();
-    if has(b';') {
-        return Separator::Byte(b';');
+/// Says that particles of several times are drawn together, where the first and the last row differ.
+fn say_times(names: &[String], rows: &[u8], separator: Separator, notes: &mut Notes) {
+    const TIMES: [&str; 6] = ["time", "t", "step", "timestep", "time step", "frame"];
+    let is_time = |name: &String| TIMES.contains(&plain(name).as_str());
+    let Some(index) = names.iter().position(is_time) else { return };
+    let end = rows.trim_ascii_end();
+    let begin = memchr::memrchr(b'\n', end).map_or(0, |end| end + 1);
+    let first = sample(rows, separator).into_iter().nth(index).unwrap_or_default();
+    let last = columns(&end[begin..], separator).into_iter().nth(index).unwrap_or_default();
+    if first != last {
+        let name = &names[index];
+        notes.guessed(format!(
+            "{name:?} goes from {first} to {last}: particles of all times are drawn together (--keep \
+             {name}={first} draws those of one)"
+        ));
     }
-    if has(b'\t') {
-        return Separator::Byte(b'\t');
-    }
-    // Numbers with decimal commas and blanks between them have blanks in their "fields".
-    let by_comma = columns(line, Separator::Byte(b','));
-    let with_blanks =
-        |field: &String| number_of(field).is_none() && field.split_ascii_whitespace().count() > 1;
-    let starts_number =
-        line.first().is_some_and(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
-    if has(b',') && !(starts_number && by_comma.iter().any(with_blanks)) {
-        return Separator::Byte(b',');
-    }
-    Separator::Blanks
+}
+
+/// Whether a flaw may be of a decimal comma: of a number where commas stand in fields only.
+fn has_own_commas(rows: &Rows, flaw: &Flaw) -> bool {
+    rows.separator != Separator::Byte(b',') && flaw.location.column.is_some()
 }
 
 /// Whether the numbers of a row have a decimal comma.
@@ -158,41 +122,6 @@ fn decimal_mark(separator: Separator, sample: &[String]) -> DecimalMark {
     }
 }
 
-fn columns(line: &[u8], separator: Separator) -> Vec<String> {
-    let rows = Rows {
-        separator,
-        mark: DecimalMark::Point,
-        fields: Vec::new(),
-        width: Width::AsNeeded,
-        skips: None,
-    };
-    let mut fields = Vec::new();
-    // A quote that does not end is found again where the line is read as a row.
-    let _ = rows.split(line, &mut fields);
-    fields.into_iter().map(|field| word(field.trim_ascii()).into_owned()).collect()
-}
-
-fn number_of(field: &str) -> Option<f64> {
-    let read = |mark| number(field.as_bytes(), mark);
-    read(DecimalMark::Point).or_else(|| read(DecimalMark::Comma))
-}
-
-fn axis_of(name: &str) -> Option<usize> {
-    Role::of(name)?.axis()
-}
-
-/// Names for the columns of a table without names.
-fn unnamed(count: usize, notes: &mut Notes) -> Vec<String> {
-    let behind =
-        if count > 3 { format!("; {} behind them not used", count - 3) } else { String::new() };
-    notes.guessed(format!(
-        "no line of names: the first three columns are taken as x, y, z{behind} \
-         (--columns x,y,z,… says otherwise)"
-    ));
-    let more = (4..=count).map(|number| format!("column {number}"));
-    ["x", "y", "z"].map(str::to_owned).into_iter().chain(more).collect()
-}
-
 fn fields(
     names: &[String],
     sample: &[String],
@@ -201,10 +130,10 @@ fn fields(
 ) -> Result<Vec<Field>, Flaw> {
     let mut seen = [false; 3];
     let mut fields: Vec<Field> = Vec::with_capacity(names.len());
-    for (index, name) in names.iter().enumerate() {
-        let role = Role::of(name);
-        let again = role.is_some() && names[..index].iter().any(|other| Role::of(other) == role);
-        if again && role.is_some_and(Role::makes_balls) {
+    let names = with_colors(names);
+    let roles: Vec<Option<Role>> = names.iter().map(|name| role_of(name, &names)).collect();
+    for (index, (name, role)) in names.iter().zip(roles.iter().copied()).enumerate() {
+        if role.is_some_and(Role::makes_balls) && roles[..index].contains(&role) {
             let flaw = Flaw::needed("each column once", format_args!("{name:?} again"));
             return Err(flaw.at_column(index + 1));
         }
@@ -227,9 +156,35 @@ fn fields(
         let axis = ["x", "y", "z"][missing];
         let needed = format!("a column {axis:?} in the line of names");
         let flaw = Flaw::needed(&needed, format_args!("{:?}", names.join(",")));
-        return Err(flaw.or("name the columns with --columns, in their order"));
+        let flaw = flaw.or("name the columns with --columns, in their order");
+        return Err(match seen {
+            [true, true, false] => flaw.or("points of a plane need a column z of zeros"),
+            _ => flaw,
+        });
     }
     Ok(fields)
+}
+
+/// The role of a column among others: `x` says where a particle is, not `center_x` beside it.
+fn role_of(name: &str, names: &[String]) -> Option<Role> {
+    let role = Role::of(name)?;
+    let is_letter = |name: &str| ["x", "y", "z"].contains(&plain(name).as_str());
+    let is_other = role.axis().is_some()
+        && !is_letter(name)
+        && names.iter().any(|other| is_letter(other) && Role::of(other) == Some(role));
+    (!is_other).then_some(role)
+}
+
+/// The names, where `r`, `g` and `b` are all there as red, green and blue: `r` alone is a radius.
+fn with_colors(names: &[String]) -> Vec<String> {
+    const LETTERS: [(&str, &str); 3] = [("r", "red"), ("g", "green"), ("b", "blue")];
+    let one = |letter: &str| names.iter().filter(|name| plain(name) == letter).count() == 1;
+    let are_colors = LETTERS.iter().all(|(letter, _)| one(letter));
+    let color = |name: &String| {
+        let color = LETTERS.iter().find(|(letter, _)| are_colors && plain(name) == *letter);
+        color.map_or_else(|| name.clone(), |(_, color)| (*color).to_owned())
+    };
+    names.iter().map(color).collect()
 }
 
 /// Whether the flaw is of a column that only looked like one of numbers, and is one of words from now on.
@@ -243,6 +198,7 @@ fn becomes_words(rows: &mut Rows, flaw: &Flaw) -> bool {
     false
 }
 
+/// Whether a line has no row.
 fn is_comment(line: &[u8]) -> bool {
     line.trim_ascii_start().first().is_none_or(|byte| COMMENT.contains(byte))
 }
@@ -308,12 +264,66 @@ mod tests {
             ",x,y,z\n0,1.5,2,3\n1,-4,5,6\n",
             "id,x,y,z,what\n1,1.5D0,2,3,fluid\n2,-4,5,6.0e0,\"a, b\"\n",
             "what x y z\n1 1.5 2 3\nb -4 5 6\n",
+            "\"x\",\"y\",\"z\"\n\"1\",1.5,2,3\n\"2\",-4,5,6\n",
+            "\"x\" \"y\" \"z\"\n\"1\" 1.5 2 3\n\"2\" -4 5 6\n",
+            "sep=;\nx;y;z\n1,5;2;3\n-4;5;6\n",
+            "Exported by hand\n,,\nx,y,z\n1.5,2,3\n-4,5,6\n",
+            "x,y,z\nm,m,m\n1.5,2,3\n-4,5,6\n",
+            ",0,1,2\n0,1.5,2,3\n1,-4,5,6\n",
+            "0,1,2\n1.5,2,3\n-4,5,6\n",
+            "z;y;x\n3;2;1,5\n6;5;-4\n",
+            "center_x,x,y,z\n9,1.5,2,3\n9,-4,5,6\n",
         ] {
             let table = read(text).unwrap_or_else(|flaw| panic!("{text}: {flaw:?}"));
             let expected = [DVec3::new(1.5, 2.0, 3.0), DVec3::new(-4.0, 5.0, 6.0)];
             assert_eq!(table.positions, expected, "{text}");
             assert!(recognizes(text.as_bytes()), "{text}");
         }
+    }
+
+    #[test]
+    fn commas_of_numbers_show_further_down() {
+        let table = read("x;y;z;mass\n1;2;3;4\n1,5;2;3;4,5\n").expect("legal");
+        assert_eq!(table.positions[1].x, 1.5);
+        assert_eq!(words(&table, "mass"), ["4", "4.5"]);
+        assert!(refusal("x;y;z\n1;2;3\n1,5;2.5;3\n").contains("line 3, column 1 (x)"));
+    }
+
+    #[test]
+    fn three_letters_are_colors() {
+        let table = read("x,y,z,r,g,b\n1,2,3,0,128,255\n").expect("legal");
+        assert!(table.column("r").is_none());
+        let colors = ["red", "green", "blue"].map(|name| words(&table, name).remove(0));
+        assert_eq!(colors, ["0", "128", "255"]);
+        let table = read("x,y,z,radius,r,g,b\n1,2,3,4,0,128,255\n").expect("legal");
+        assert_eq!(words(&table, "radius"), ["4"]);
+        assert_eq!(words(&read("x,y,z,r,g\n1,2,3,4,5\n").expect("legal"), "r"), ["4"]);
+    }
+
+    #[test]
+    fn sizes_have_the_unit_of_the_coordinates() {
+        let radius = |text: &str| words(&read(text).expect("legal"), "radius [mm]");
+        assert_eq!(radius("x [m],y [m],z [m],radius [mm]\n1,2,3,500\n"), ["0.5"]);
+        assert_eq!(radius("x [mm],y [mm],z [mm],radius [mm]\n1,2,3,500\n"), ["500"]);
+        assert_eq!(radius("x,y,z,radius\nm,m,m,mm\n1,2,3,500\n"), ["0.5"]);
+        assert_eq!(radius("x,y,z,radius [mm]\n1,2,3,500\n"), ["500"]);
+    }
+
+    #[test]
+    fn what_is_guessed_of_the_first_lines_is_said() {
+        let said = |text: &str| {
+            let mut notes = Notes::default();
+            let request = Request::default();
+            table(text.as_bytes(), &Span::whole(b""), &request, &mut notes).expect("legal");
+            notes.iter().map(|note| note.text.clone()).collect::<Vec<_>>().join("\n")
+        };
+        assert!(said("title\nx,y,z\n1,2,3\n").contains("1 line before the names"));
+        assert!(said(",0,1,2\n0,1.5,2,3\n").contains("counts the columns"));
+        assert!(said("0,1,2\n3,4,5\n").contains("no line of names"));
+        assert!(said("x,y,z\nm,m,m\n1,2,3\n").contains("units in line 2"));
+        let times = "time,x,y,z\n0,1,2,3\n0.5,1,2,3\n";
+        assert!(said(times).contains("\"time\" goes from 0 to 0.5"));
+        assert!(!said("time,x,y,z\n0,1,2,3\n0,1,2,3\n").contains("goes from"));
     }
 
     #[test]
@@ -351,7 +361,7 @@ mod tests {
         assert_eq!(
             refusal("x,y,radius\n"),
             "balls.csv, line 1: needed a column \"z\" in the line of names, found \"x,y,radius\"; name \
-             the columns with --columns, in their order"
+             the columns with --columns, in their order; points of a plane need a column z of zeros"
         );
         assert_eq!(
             refusal("x,y,z,radius\n\n1,2,3\n"),
