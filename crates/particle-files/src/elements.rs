@@ -82,6 +82,20 @@ pub(crate) fn element_of_label(label: &str) -> Option<Element> {
     if is_label { Element::of_symbol(symbol) } else { None }
 }
 
+/// Whether a label is what programs of quantum chemistry call a place without an atom: `X`, `Bq`, `Gh`,
+/// `O-Bq`, `H:`.
+pub(crate) fn is_ghost(label: &str) -> bool {
+    const GHOSTS: [&str; 6] = ["X", "Xx", "Bq", "Gh", "Du", "DA"];
+    let label = label.trim();
+    let of_element = |behind: &str| {
+        label.strip_suffix(behind).is_some_and(|label| element_of_label(label).is_some())
+    };
+    let letters = label.trim_end_matches(|c: char| c.is_ascii_digit());
+    GHOSTS.iter().any(|ghost| ghost.eq_ignore_ascii_case(letters))
+        || of_element("-Bq")
+        || of_element(":")
+}
+
 /// Symbols and van der Waals radii, from hydrogen on.
 #[rustfmt::skip]
 const ELEMENTS: [(&str, f32); 118] = [
@@ -122,6 +136,16 @@ mod tests {
             assert_eq!(Element::of_number(number).map(Element::symbol), Some(symbol));
         }
         assert_eq!((Element::of_number(0), Element::of_number(119)), (None, None));
+    }
+
+    #[test]
+    fn ghosts_are_no_elements() {
+        for label in ["X", "XX", "Bq", "bq3", "Gh", "Du", "O-Bq", "H:"] {
+            assert!(is_ghost(label), "{label}");
+        }
+        for label in ["Xe", "H", "bead", ":", "B", ""] {
+            assert!(!is_ghost(label), "{label}");
+        }
     }
 
     #[test]

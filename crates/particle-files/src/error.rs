@@ -11,7 +11,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum LoadError {
     /// A file's content is that of no format.
-    #[error("{file}: needed particles in one of the formats {formats}; found {found}")]
+    #[error(
+        "{file}: needed particles in one of the formats {formats}; found {found}; convert it to one of them, \
+         such as extended XYZ, CSV or VTP"
+    )]
     UnknownFormat {
         /// The path.
         file: String,

@@ -39,21 +39,45 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
     Ok(unpacked(path, bytes.into())?.into_owned())
 }
 
-/// The bytes of a file of that name, unpacked where they are packed.
+/// The bytes of a file of that name, unpacked where they are packed, once or twice.
 pub(crate) fn unpacked<'a>(path: &Path, bytes: Cow<'a, [u8]>) -> Result<Cow<'a, [u8]>, LoadError> {
+    let bytes = unpacked_once(path, unpacked_once(path, bytes)?)?;
+    match other_packing_of(&bytes) {
+        Some(packing) => Err(other_packing(path, packing)),
+        None => Ok(bytes),
+    }
+}
+
+fn unpacked_once<'a>(path: &Path, bytes: Cow<'a, [u8]>) -> Result<Cow<'a, [u8]>, LoadError> {
     let mut unpacked = Vec::new();
     let read = match *bytes {
         [0x1f, 0x8b, ..] => MultiGzDecoder::new(&*bytes).read_to_end(&mut unpacked),
         [0x28, 0xb5, 0x2f, 0xfd, ..] => unpack_zstd(&bytes, &mut unpacked),
-        [b'B', b'Z', b'h', b'1'..=b'9', ..] => return Err(other_packing(path, "bzip2")),
-        [0xfd, b'7', b'z', b'X', b'Z', ..] => return Err(other_packing(path, "xz")),
-        [b'7', b'z', 0xbc, 0xaf, ..] => return Err(other_packing(path, "7z")),
         _ => return Ok(bytes),
     };
     match read {
         Ok(_) => Ok(unpacked.into()),
         Err(source) => Err(LoadError::Read { file: named(path), source }),
     }
+}
+
+/// A packing that is not read.
+fn other_packing_of(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [b'B', b'Z', b'h', b'1'..=b'9', ..] => Some("bzip2"),
+        [0xfd, b'7', b'z', b'X', b'Z', ..] => Some("xz"),
+        [b'7', b'z', 0xbc, 0xaf, ..] => Some("7z"),
+        [b'P', b'K', 3, 4, ..] if !is_npz(bytes) => Some("zip"),
+        _ if bytes.get(257..262) == Some(b"ustar") => Some("tar"),
+        _ => None,
+    }
+}
+
+/// Whether the first file of a zip archive is an array of NumPy.
+fn is_npz(bytes: &[u8]) -> bool {
+    let length = bytes.get(26..28).map_or(0, |length| u16::from_le_bytes([length[0], length[1]]));
+    let name = bytes.get(30..30 + usize::from(length)).unwrap_or_default();
+    name.ends_with(b".npy")
 }
 
 /// All frames of a zstd file, one behind the other.
@@ -90,5 +114,29 @@ mod tests {
     fn other_packings_are_named() {
         let error = unpacked(Path::new("a.pdb.bz2"), b"BZh91AY"[..].into()).expect_err("refused");
         assert!(error.to_string().contains("gzip or zstd, found bzip2"), "{error}");
+        let mut zip = b"PK\x03\x04".to_vec();
+        zip.resize(30, 0);
+        zip[26] = 5;
+        let refused = |bytes: &[u8]| {
+            let unpacked = unpacked(Path::new("a"), bytes.into());
+            unpacked.map(Cow::into_owned).map_err(|error| error.to_string())
+        };
+        assert!(refused(&[&zip[..], b"a.csv"].concat()).is_err_and(|error| error.contains("zip")));
+        assert!(refused(&[&zip[..], b"a.npy"].concat()).is_ok());
+        let tar = [&[b'a'; 257][..], b"ustar"].concat();
+        assert!(refused(&tar).is_err_and(|error| error.contains("found tar")));
+    }
+
+    #[test]
+    fn what_is_packed_twice_is_unpacked() {
+        use std::io::Write;
+        let pack = |bytes: &[u8]| {
+            let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+            packer.write_all(bytes).expect("memory");
+            packer.finish().expect("memory")
+        };
+        let twice = pack(&pack(b"x,y,z"));
+        let bytes = unpacked(Path::new("a.csv.gz"), Cow::Borrowed(&twice)).expect("legal");
+        assert_eq!(*bytes, *b"x,y,z");
     }
 }

@@ -3,7 +3,7 @@
 use metaball_core::Color;
 
 use crate::coloring;
-use crate::elements::{Element, element_of_label};
+use crate::elements::{Element, element_of_label, is_ghost};
 use crate::error::Flaw;
 use crate::notes::{Notes, counted};
 use crate::options::{ReadOptions, Substance};
@@ -22,7 +22,8 @@ pub(crate) fn particles(
     options: &ReadOptions,
     mut notes: Notes,
 ) -> Result<Particles, Flaw> {
-    let mut table = options.selection.of(table, &mut notes)?;
+    let table = options.selection.of(table, &mut notes)?;
+    let mut table = without_ghosts(table, options, &mut notes);
     let elements = elements_of(&table);
     let spacing = std::cell::OnceCell::new();
     let mut spaced = |table: &Table| *spacing.get_or_init(|| median_spacing(&table.positions));
@@ -78,6 +79,28 @@ fn numbers(table: &Table, role: Role) -> Option<(&str, &[f64])> {
         Column { name, values: Values::Numbers(numbers) } => Some((name, numbers)),
         _ => None,
     }
+}
+
+/// The particles without ghosts, if all others are elements.
+fn without_ghosts(table: Table, options: &ReadOptions, notes: &mut Notes) -> Table {
+    let Some(Values::Words(words)) = column_of(&table, Role::Element).map(|column| &column.values)
+    else {
+        return table;
+    };
+    let is_atom = |word: &String| element_of_label(word).is_some();
+    let each: Vec<bool> = words.different().iter().map(|word| is_ghost(word)).collect();
+    let are_atoms = || words.different().iter().all(|word| is_ghost(word) || is_atom(word));
+    let atoms = words.different().iter().filter(|word| is_atom(word)).count();
+    let is_kept = options.substance == Some(Substance::Particles) || table.atoms;
+    if is_kept || atoms == 0 || !each.contains(&true) || !are_atoms() {
+        return table;
+    }
+    let name = words.different().iter().find(|word| is_ghost(word)).cloned().unwrap_or_default();
+    let is_ghost = |index: &usize| each[words.indices()[*index] as usize];
+    let kept: Vec<usize> = (0..table.len()).filter(|index| !is_ghost(index)).collect();
+    let ghosts = counted(table.len() - kept.len(), "ghost atom");
+    notes.left_out(format!("{ghosts} ({name}; --as particles draws all)"));
+    table.at(&kept)
 }
 
 /// The element of each particle, by the column of elements; empty where there is none.

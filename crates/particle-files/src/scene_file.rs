@@ -96,12 +96,21 @@ fn field_of_view() -> f32 {
 fn parse(text: &str) -> Result<SceneFile, Flaw> {
     let keys: Keys = toml::from_str(text).map_err(|error| {
         let flaw = Flaw::new(error.message());
+        // A folder of Windows in double quotes.
+        let flaw = match error.message().contains("escape") {
+            true => flaw.or("write / for \\, or put the path in single quotes"),
+            false => flaw,
+        };
         match error.span() {
             Some(span) => at(flaw, text, span.start),
             None => flaw,
         }
     })?;
 
+    if keys.particles.is_empty() {
+        let needed = "a file of particles, from the folder of the scene file on";
+        return Err(Flaw::needed(needed, "no name").at_key("particles"));
+    }
     let threshold = match &keys.threshold {
         Some(value) if !(value.get_ref().is_finite() && *value.get_ref() > 0.0) => {
             let flaw = Flaw::needed("a finite number above 0", value.get_ref());
@@ -169,6 +178,13 @@ look_at = [0.0, 0.0, 0.0]
 up = [0.0, 1.0, 0.0]
 vertical_fov_degrees = 40
 "#;
+
+    #[test]
+    fn names_that_are_none_are_refused_with_a_way_out() {
+        let windows = refusal("particles = \"C:\\data\\a.csv\"");
+        assert!(windows.contains("line 1") && windows.ends_with("in single quotes"), "{windows}");
+        assert!(refusal("particles = \"\"").contains("needed a file of particles"));
+    }
 
     fn refusal(text: &str) -> String {
         parse(text).expect_err("refused").in_file("a.toml").to_string()

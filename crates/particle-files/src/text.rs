@@ -25,7 +25,8 @@ pub(crate) fn decoded<'a>(bytes: Cow<'a, [u8]>, notes: &mut Notes) -> Result<Cow
     };
     if let Some(at) = memchr::memchr(0, &bytes) {
         let line = 1 + memchr::memchr_iter(b'\n', &bytes[..at]).count();
-        return Err(Flaw::needed("text", "a byte 0").at_line(line));
+        let needed = "text, or what begins as a binary format of those that are read";
+        return Err(Flaw::needed(needed, "a byte 0").at_line(line));
     }
     if std::str::from_utf8(&bytes).is_err() {
         notes.read("its text is not UTF-8 and is taken as Latin-1");

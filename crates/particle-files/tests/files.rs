@@ -93,7 +93,7 @@ fn what_is_no_file_of_a_scene_says_so() {
         get(&write("unknown", "a.doc", "Dear all,\nno particles here\n")).expect_err("refused");
     assert!(matches!(unknown, LoadError::UnknownFormat { .. }), "{unknown}");
     assert!(
-        unknown.to_string().ends_with("found text that starts with \"Dear all,\""),
+        unknown.to_string().contains("found text that starts with \"Dear all,\"; convert it"),
         "{unknown}"
     );
     let frames = get("a.frames").expect_err("refused").to_string();

@@ -1,6 +1,6 @@
 //! Models, frames and parts of structures, as options choose them.
 
-use particle_files::{LoadError, Particles, ReadOptions, Selection, parse};
+use particle_files::{LoadError, Particles, ReadOptions, Selection, Substance, parse};
 
 const PDB: &str = "MODEL        2
 ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00  0.00           N
@@ -82,4 +82,17 @@ HETATM    3 CA    CA C   3       2.000   0.000   0.000  1.00 20.00          CA2+
     assert_eq!(dropped("residue_number=2..3"), [0.0]);
     assert_eq!(dropped("b_factor=30.."), [0.0, 2.0]);
     assert_eq!(dropped("charge=2"), [0.0, 1.0]);
+}
+
+#[test]
+fn ghost_atoms_are_left_out_of_molecules() {
+    let text = "4\n\nO 0 0 0\nH 0.96 0 0\nBq 0.3 0.3 0.3\nH: 5 0 0\n";
+    let molecule = parse("a.xyz", text.as_bytes(), &ReadOptions::default()).expect("legal");
+    assert_eq!(molecule.len(), 2);
+    assert!(said(&molecule).contains("2 ghost atoms (Bq"), "{}", said(&molecule));
+    let all = ReadOptions { substance: Some(Substance::Particles), ..ReadOptions::default() };
+    assert_eq!(parse("a.xyz", text.as_bytes(), &all).expect("legal").len(), 4);
+    // Where others are no elements either, none is a ghost.
+    let beads = text.replace("O ", "bead ");
+    assert_eq!(parse("a.xyz", beads.as_bytes(), &ReadOptions::default()).expect("legal").len(), 4);
 }

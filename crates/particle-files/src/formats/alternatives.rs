@@ -20,7 +20,8 @@ pub(super) struct Alternative {
 /// The indices of the atoms that are left out.
 ///
 /// In a residue, places exclude each other that have an atom in common; all do where residues have
-/// different names, or none. Of those the one with the highest mean occupancy of its atoms stays, the first where some are equal.
+/// different names, or none. Of those the one with the highest mean occupancy of its
+/// atoms stays; where some are equal the one of most atoms, or the first.
 pub(super) fn left_out(alternatives: &[Alternative]) -> HashSet<usize> {
     let mut left_out = HashSet::new();
     for residue in residues(alternatives) {
@@ -75,7 +76,9 @@ fn left_out_of_residue(atoms: &[&Alternative]) -> Vec<usize> {
     let mut best: HashMap<usize, usize> = HashMap::new();
     for place in 0..places.len() {
         let best = best.entry(group_of(&mut places, place)).or_insert(place);
-        if places[place].mean() > places[*best].mean() {
+        let (one, other) = (&places[place], &places[*best]);
+        let has_more = one.mean() == other.mean() && one.atoms > other.atoms;
+        if one.mean() > other.mean() || has_more {
             *best = place;
         }
     }
@@ -139,6 +142,7 @@ mod tests {
         assert_eq!(left(&["A CB SER 0.2", "B CB SER 0.8", "A OG SER 0.2", "B OG SER 0.8"]), [1, 3]);
         assert_eq!(left(&["A CB SER 0.5", "B CB SER 0.5"]), [0]);
         assert_eq!(left(&["B CB SER 0.5", "A CB SER 0.5"]), [0]);
+        assert_eq!(left(&["A CB SER 0.5", "B CB SER 0.5", "B OG SER 0.5"]), [1, 2]);
         // The mean counts, not how many there are.
         assert_eq!(left(&["A CB SER 0.4", "B CB SER 0.6", "A HB SER 0.4"]), [1]);
     }

@@ -14,7 +14,7 @@ use crate::number::{DecimalMark, number};
 use crate::roles::{Role, plain};
 use crate::rows::{Becomes, Field, Rows, Separator, Width};
 use crate::table::Table;
-use top::{Header, Top, axis_of, begins_with_numbers, columns, number_of, sample};
+use top::{Header, Top, axis_of, begins_with_numbers, columns, sample};
 
 pub(super) const READER: Reader = Reader {
     name: "CSV",

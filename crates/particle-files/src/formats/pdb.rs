@@ -30,9 +30,11 @@ pub(super) const READER: Reader = Reader {
 /// Whether a content is of this format or one of its relatives: it begins with one of their records, or
 /// has atoms early on.
 pub(super) fn is_like_pdb(bytes: &[u8]) -> bool {
-    const RECORDS: [&[u8]; 10] = [
+    const RECORDS: [&[u8]; 31] = [
         b"HEADER", b"TITLE ", b"COMPND", b"REMARK", b"CRYST1", b"MODEL ", b"AUTHOR", b"EXPDTA",
-        b"NUMMDL", b"SOURCE",
+        b"NUMMDL", b"SOURCE", b"OBSLTE", b"SPLIT ", b"CAVEAT", b"KEYWDS", b"MDLTYP", b"REVDAT",
+        b"SPRSDE", b"JRNL  ", b"DBREF ", b"SEQADV", b"SEQRES", b"MODRES", b"HET   ", b"HETNAM",
+        b"HELIX ", b"SHEET ", b"SSBOND", b"CISPEP", b"ORIGX1", b"SCALE1", b"CONECT",
     ];
     let (first, _) = first_line(bytes.trim_ascii_start());
     let is_record = RECORDS.contains(&[first, b"      "].concat().get(..6).unwrap_or_default());
@@ -272,6 +274,15 @@ mod tests {
             assert_eq!(words(&table, name), [value], "{name}");
         }
         assert!(table.atoms && table.cell.is_none() && table.lines.get(0) == Some(1));
+    }
+
+    #[test]
+    fn long_beginnings_without_atoms_are_known() {
+        for record in ["SEQRES", "CONECT", "HELIX ", "DBREF "] {
+            let text = format!("{}{ATOM}\n", format!("{record}    1    2\n").repeat(300));
+            assert!(is_like_pdb(text.as_bytes()), "{record}");
+            assert_eq!(read(&text).len(), 1);
+        }
     }
 
     #[test]

@@ -48,7 +48,13 @@ fn count_of(line: &[u8]) -> Option<usize> {
 }
 
 fn is_number(field: &[u8]) -> bool {
-    number(field, DecimalMark::Point).is_some()
+    [DecimalMark::Point, DecimalMark::Comma].iter().any(|mark| number(field, *mark).is_some())
+}
+
+/// The decimal mark of a row.
+fn mark_of(row: &[u8]) -> DecimalMark {
+    let has_comma = |field: &[u8]| field.contains(&b',') && is_number(field);
+    if fields(row).any(has_comma) { DecimalMark::Comma } else { DecimalMark::Point }
 }
 
 /// Whether three numbers in a row are among the fields.
@@ -188,7 +194,7 @@ fn table(bytes: &[u8], span: &Span, request: &Request, notes: &mut Notes) -> Res
     }
     let rows_of = Rows {
         separator: Separator::Blanks,
-        mark: DecimalMark::Point,
+        mark: mark_of(first_row),
         fields: layout,
         width: Width::AsNeeded,
         skips: None,
@@ -463,6 +469,7 @@ mod tests {
             "2 atoms\nwater\nO 0 0 0\nH 0.96 0 0\n",
             "2 # atoms\nwater\nO 0 0 0 -0.8\nH 0.96 0 0 0.4\n",
             "O 0 0 0\nH 0.96 0 0\n\n",
+            "2\ncommas\nO 0,0 0,0 0,0\nH 0,96 0,0 0,0\n",
             "2\nnumbered\n1 O 0 0 0\n2 H 0.96 0 0\n",
             "2 Water\n1 O 0 0 0 1 2\n2 H 0.96 0 0 2 1\n",
             "2\n20 20 20 90 90 90\n1 O 0 0 0 1 2\n2 H 0.96 0 0 2 1\n",
