@@ -68,7 +68,7 @@ impl FromStr for NumberedPath {
         };
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         match digits {
-            Some(digits) if !text.replacen('%', "", 1).contains('%') => {
+            Some(digits) if !after.contains('%') => {
                 Ok(Self { folder, before: before.to_owned(), digits, after: after.to_owned() })
             }
             _ => Err(refused()),
@@ -89,6 +89,7 @@ mod tests {
         assert_eq!(numbered("out/f-%04d.png").path(7), Path::new("out/f-0007.png"));
         assert_eq!(numbered("%d.xyz.gz").path(12345), Path::new("12345.xyz.gz"));
         assert_eq!(numbered("a%02d").path(123), Path::new("a123"));
+        assert_eq!(numbered("100% done/f%d.xyz").path(1), Path::new("100% done/f1.xyz"));
         for text in ["a.png", "a%", "a%4d", "a%s.png", "%d%d", "a%0d", "a%099d", "%d/a.png", ""] {
             let error = text.parse::<NumberedPath>().expect_err("refused").to_string();
             assert!(error.contains("needed a file name with one number in it"), "{error}");

@@ -124,12 +124,22 @@ impl Rows {
             {
                 continue;
             }
+            if self.skips.is_some() && self.is_empty_row(start) {
+                continue;
+            }
             fields.clear();
             self.split(line, &mut fields).map_err(|flaw| flaw.at_line(number))?;
             self.row(&fields, &mut part).map_err(|flaw| flaw.at_line(number))?;
             part.lines.push(part.positions.len() - 1, number);
         }
         Ok(part)
+    }
+
+    /// Whether a line has separators only, as spreadsheets end their tables.
+    fn is_empty_row(&self, line: &[u8]) -> bool {
+        let Separator::Byte(separator) = self.separator else { return false };
+        let is_nothing = |byte: &u8| *byte == separator || byte.is_ascii_whitespace();
+        line.first() == Some(&separator) && line.iter().all(is_nothing)
     }
 
     /// The fields of a line.
@@ -297,7 +307,7 @@ mod tests {
 
     #[test]
     fn fields_become_positions_and_columns() {
-        let text = b"1,a,2,3,4\n\n# no row\n5, \"b,c\" ,6,7,\n";
+        let text = b"1,a,2,3,4\n\n# no row\n5, \"b,c\" ,6,7,\n,,,,\n , ,,,\r\n";
         let table = rows().read(text, 2).expect("legal");
         assert_eq!(table.positions, [DVec3::new(1.0, 2.0, 3.0), DVec3::new(5.0, 6.0, 7.0)]);
         assert_eq!(table.lines, Lines::Each(vec![2, 5]));
@@ -319,6 +329,7 @@ mod tests {
         assert_eq!((flaw.location.column, flaw.location.key.as_deref()), (Some(3), Some("y")));
         let problem = |text: &str| rows().read(text.as_bytes(), 1).expect_err("refused").problem;
         assert!(problem("1,a,2,3\n").contains("needed 5 fields"));
+        assert!(problem(",a,,,\n").contains("a finite number"));
         assert!(problem("1,a,\"2,5\",3,4\n").contains("decimal comma"));
         assert!(problem("1,a,2,3,4,5\n").contains("decimal comma"));
         assert!(problem("1,\"a,2,3,4\n").contains("quote"));

@@ -180,8 +180,9 @@ impl Layout {
             let has_point = field.get(4) == Some(&b'.');
             let number = number(field, DecimalMark::Point).filter(|number| number.is_finite());
             position[axis] = number.filter(|_| has_point).ok_or_else(|| {
+                let (first, last, point) = (start + 1, start + self.width, start + 5);
                 let needed =
-                    format!("a finite number in columns {} to {}", start + 1, start + self.width);
+                    format!("a finite number in columns {first} to {last}, its point in {point}");
                 let found = format!("{:?}", word(field));
                 Flaw::needed(&needed, found).at_column(start + 1).at_key(["x", "y", "z"][axis])
             })?;

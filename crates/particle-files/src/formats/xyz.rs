@@ -220,7 +220,8 @@ fn check_count(frame: &Frame<'_>, span: &Span) -> Result<(), Flaw> {
     let found = format!("the end of the file after {particles}");
     let flaw = Flaw::needed(&counted(count, "particle"), found);
     let flaw = flaw.at_line(span.line + before + particles);
-    Err(if looks_like_particle(comment) {
+    let first_row = first_line(rows).0;
+    Err(if looks_like_particle(comment) || are_alike(comment, first_row) {
         flaw.or(format!("line {} is the comment, and looks like a particle", span.line + 1))
     } else {
         flaw
@@ -556,6 +557,7 @@ mod tests {
             refusal("1\n\nH 0 0 0\nH 0 0 1\n"),
             "balls.xyz, line 4: needed 1 particle as line 1 says, found what looks like particle 2"
         );
+        assert!(refusal("2\n1.0 2.0 3.0\n4.0 5.0 6.0\n").ends_with("looks like a particle"));
         for more in ["1\n\n8 0 0 0\n8 0 0 1\n", "1\n\n0 0 0\n0 0 1\n"] {
             assert!(refusal(more).contains("what looks like particle 2"), "{more}");
         }
