@@ -7,7 +7,7 @@
 mod top;
 mod units;
 
-use super::{Reader, Request, Span};
+use super::{Reader, Request, Span, Wanted};
 use crate::error::Flaw;
 use crate::notes::{Notes, counted};
 use crate::number::{DecimalMark, number};
@@ -138,7 +138,13 @@ fn fields(
             return Err(flaw.at_column(index + 1));
         }
         let sampled = sample.get(index).map_or(b"0".as_slice(), |field| field.as_bytes());
-        let wanted = !name.is_empty() && request.wanted.wants(name);
+        // The other coordinates of a table with two triples of them are columns like any.
+        let wanted = match &request.wanted {
+            Wanted::Named(names) if role.is_none() && Role::of(name).is_some() => {
+                names.iter().any(|named| named.eq_ignore_ascii_case(name))
+            }
+            wanted => !name.is_empty() && wanted.wants(name),
+        };
         let becomes = match role.and_then(Role::axis) {
             Some(axis) => {
                 seen[axis] = true;
@@ -165,26 +171,41 @@ fn fields(
     Ok(fields)
 }
 
-/// The role of a column among others: `x` says where a particle is, not `center_x` beside it.
+/// The role of a column among others: of several for an axis, such as `x` and `center_x`, the plainest
+/// says where a particle is.
 fn role_of(name: &str, names: &[String]) -> Option<Role> {
     let role = Role::of(name)?;
-    let is_letter = |name: &str| ["x", "y", "z"].contains(&plain(name).as_str());
-    let is_other = role.axis().is_some()
-        && !is_letter(name)
-        && names.iter().any(|other| is_letter(other) && Role::of(other) == Some(role));
-    (!is_other).then_some(role)
+    let plainness = |name: &str| {
+        let plain = plain(name);
+        match plain.len() {
+            1 => 0,
+            _ if ["pos", "coord", "point"].iter().any(|place| plain.contains(place)) => 1,
+            _ => 2,
+        }
+    };
+    let is_plainer =
+        |other: &String| Role::of(other) == Some(role) && plainness(other) < plainness(name);
+    (role.axis().is_none() || !names.iter().any(is_plainer)).then_some(role)
 }
 
 /// The names, where `r`, `g` and `b` are all there as red, green and blue: `r` alone is a radius.
 fn with_colors(names: &[String]) -> Vec<String> {
-    const LETTERS: [(&str, &str); 3] = [("r", "red"), ("g", "green"), ("b", "blue")];
-    let one = |letter: &str| names.iter().filter(|name| plain(name) == letter).count() == 1;
-    let are_colors = LETTERS.iter().all(|(letter, _)| one(letter));
+    const COLORS: [&str; 3] = ["red", "green", "blue"];
+    let is_one = |letter: &&str| names.iter().filter(|name| bare(name) == *letter).count() == 1;
+    let letters = [["r", "g", "b"], ["R", "G", "B"]];
+    let Some(letters) = letters.into_iter().find(|letters| letters.iter().all(is_one)) else {
+        return names.to_vec();
+    };
     let color = |name: &String| {
-        let color = LETTERS.iter().find(|(letter, _)| are_colors && plain(name) == *letter);
-        color.map_or_else(|| name.clone(), |(_, color)| (*color).to_owned())
+        let index = letters.iter().position(|letter| *letter == bare(name));
+        index.map_or_else(|| name.clone(), |index| COLORS[index].to_owned())
     };
     names.iter().map(color).collect()
+}
+
+/// A name without quotes.
+fn bare(name: &str) -> &str {
+    name.trim_matches(|c: char| c == '"' || c == '\'' || c.is_whitespace())
 }
 
 /// Whether the flaw is of a column that only looked like one of numbers, and is one of words from now on.
@@ -215,8 +236,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::formats::Wanted;
     use crate::table::{Lines, Values};
+    use crate::units::Unit;
 
     fn read(text: &str) -> Result<Table, Flaw> {
         let request = Request { wanted: Wanted::Named(vec!["mass".into()]), ..Request::default() };
@@ -297,6 +318,11 @@ mod tests {
         assert_eq!(colors, ["0", "128", "255"]);
         let table = read("x,y,z,radius,r,g,b\n1,2,3,4,0,128,255\n").expect("legal");
         assert_eq!(words(&table, "radius"), ["4"]);
+        let table = read("x,y,z,R,r,g,b\n1,2,3,4,0,128,255\n").expect("legal");
+        assert_eq!(
+            (words(&table, "R"), words(&table, "red")),
+            (vec!["4".into()], vec!["0".into()])
+        );
         assert_eq!(words(&read("x,y,z,r,g\n1,2,3,4,5\n").expect("legal"), "r"), ["4"]);
     }
 
@@ -324,6 +350,26 @@ mod tests {
         let times = "time,x,y,z\n0,1,2,3\n0.5,1,2,3\n";
         assert!(said(times).contains("\"time\" goes from 0 to 0.5"));
         assert!(!said("time,x,y,z\n0,1,2,3\n0,1,2,3\n").contains("goes from"));
+    }
+
+    #[test]
+    fn the_plainest_of_several_coordinates_counts() {
+        for (names, x) in [
+            ("com_x,com_y,com_z,x,y,z", 4.0),
+            ("p_x,p_y,p_z,pos_x,pos_y,pos_z", 4.0),
+            ("x,y,z,position_x,position_y,position_z", 1.0),
+        ] {
+            let table = read(&format!("{names}\n1,2,3,4,5,6\n")).expect("legal");
+            assert_eq!((table.positions[0].x, table.columns.len()), (x, 0), "{names}");
+        }
+    }
+
+    #[test]
+    fn names_say_the_unit() {
+        let unit = |name: &str| read(&format!("x{name},y,z\n1,2,3\n")).expect("legal").unit;
+        assert_eq!(unit(" [nm]"), Some(Unit::Nanometre));
+        assert_eq!(unit(" (Å)"), Some(Unit::Angstrom));
+        assert_eq!((unit(" [mm]"), unit("")), (None, None));
     }
 
     #[test]

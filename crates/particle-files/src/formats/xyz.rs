@@ -122,7 +122,7 @@ fn frames(bytes: &[u8]) -> Result<Vec<Span>, Flaw> {
     let (mut start, blank) = behind_blanks(bytes);
     let mut line = blank + 1;
     let (title, _) = first_line(&bytes[start..]);
-    let words = |line| fields(line).skip(1).collect::<Vec<_>>();
+    let has_words = fields(title).count() > 1;
     let mut spans = Vec::new();
     if count_of(title).is_none() {
         if is_atom(title) {
@@ -134,8 +134,9 @@ fn frames(bytes: &[u8]) -> Result<Vec<Span>, Flaw> {
     }
     loop {
         let (first, _) = first_line(&bytes[start..]);
-        let is_next =
-            spans.is_empty() || fields(first).count() == 1 || words(first) == words(title);
+        let is_next = spans.is_empty()
+            || fields(first).count() == 1
+            || (has_words && recognizes(&bytes[start..]));
         let Some(count) = count_of(first).filter(|_| is_next) else {
             let last = spans.last().map(|span: &Span| &bytes[span.bytes.clone()]);
             let last = last.unwrap_or_default().trim_ascii_end();
@@ -458,6 +459,8 @@ mod tests {
         let counts: Vec<usize> =
             spans.iter().map(|span| read(span).expect("legal").len()).collect();
         assert_eq!(counts, [1, 2, 0, 1]);
+        let words = "1 t=0\n\nH 0 0 0\n1 t=1\n\nH 0 0 0\n1 more\n";
+        assert_eq!(frames(words.as_bytes()).expect("legal").len(), 2);
         assert_eq!(read(&spans[1]).expect("legal").lines.get(1), Some(8));
     }
 
@@ -474,6 +477,7 @@ mod tests {
             "2\nnumbered\n1 O 0 0 0\n2 H 0.96 0 0\n",
             "2 Water\n1 O 0 0 0 1 2\n2 H 0.96 0 0 2 1\n",
             "2\n20 20 20 90 90 90\n1 O 0 0 0 1 2\n2 H 0.96 0 0 2 1\n",
+            "2 t=0\n\nO 0 0 0\nH 0.96 0 0\n2 t=1\n\nO 0 0 0\nH 9 0 0\n",
             "2\n1 O 0 0 0 1 2\n2 H 0.96 0 0 2 1\n2\n1 O 0 0 0 1 2\n2 H 9 0 0 2 1\n",
             "2\nAtoms. Timestep: 0\nO 0 0 0\nH 0.96 0 0\n",
         ] {

@@ -5,6 +5,7 @@ use super::top::number_of;
 use crate::notes::Notes;
 use crate::roles::Role;
 use crate::table::{Table, Values};
+use crate::units::Unit;
 
 /// Units of length in metres.
 const LENGTHS: &[(&str, f64)] = &[
@@ -28,10 +29,17 @@ fn unit_of(name: &str) -> Option<(&'static str, f64)> {
     LENGTHS.iter().copied().find(|(own, _)| *own == unit.trim())
 }
 
-/// Brings sizes to the unit of the coordinates, where the names say that they have another.
+/// The unit of the coordinates by the name of x, and sizes brought to it, where their names say that they
+/// have another.
 pub(super) fn of_coordinates(names: &[String], table: &mut Table, notes: &mut Notes) {
     let x = names.iter().find(|name| axis_of(name) == Some(0));
     let Some((unit, metres)) = x.and_then(|name| unit_of(name)) else { return };
+    table.unit = match unit {
+        "nm" => Some(Unit::Nanometre),
+        "angstrom" | "Å" | "A" => Some(Unit::Angstrom),
+        "m" => Some(Unit::Metre),
+        _ => None,
+    };
     for column in &mut table.columns {
         let is_size = matches!(
             Role::of(&column.name),
