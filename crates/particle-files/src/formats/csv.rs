@@ -34,7 +34,8 @@ fn recognizes(bytes: &[u8]) -> bool {
     let top = Top::of(bytes);
     let Some((_, line)) = top.first else { return false };
     let columns = columns(line, top.separator());
-    let names_axis = || columns.len() >= 3 && columns.iter().any(|name| axis_of(name).is_some());
+    let has_axis = || columns.iter().take(1000).any(|name| axis_of(name).is_some());
+    let names_axis = || columns.len() >= 3 && has_axis();
     begins_with_numbers(&columns) || names_axis() || top.named_by_comment().is_some()
 }
 
@@ -161,7 +162,8 @@ fn fields(
     if let Some(missing) = seen.iter().position(|seen| !seen) {
         let axis = ["x", "y", "z"][missing];
         let needed = format!("a column {axis:?} in the line of names");
-        let flaw = Flaw::needed(&needed, format_args!("{:?}", names.join(",")));
+        let found: String = names.join(",").chars().take(200).collect();
+        let flaw = Flaw::needed(&needed, format_args!("{found:?}"));
         let flaw = flaw.or("name the columns with --columns, in their order");
         return Err(match seen {
             [true, true, false] => flaw.or("points of a plane need a column z of zeros"),
@@ -417,6 +419,7 @@ mod tests {
         assert!(refusal("x,y,z\n\"0,5\",\"0,1\",\"1,0\"\n").contains("decimal comma"));
         assert!(refusal("x,y,z\n1,nan,1\n").contains("found \"nan\""));
         assert!(refusal("").contains("needed a line of names"));
+        assert!(refusal(&"a,".repeat(200_000)).contains("line 1: needed at most 100000 fields"));
     }
 
     proptest! {

@@ -12,6 +12,9 @@ use crate::text::{lines, word};
 /// Lines that are searched for names, where the first is none of a table.
 const SEARCHED: usize = 100;
 
+/// More columns than this no table has.
+const MOST_COLUMNS: usize = 100_000;
+
 /// The first lines of a table.
 pub(super) struct Top<'a> {
     /// The first line of the table, with its number: of names or a row.
@@ -67,7 +70,7 @@ impl<'a> Top<'a> {
         let marks = text.iter().take_while(|byte| b"#%/".contains(byte)).count();
         let text = text[marks..].trim_ascii();
         let names = columns(text, separator_of(text));
-        let axes = names.iter().filter(|name| axis_of(name).is_some()).count();
+        let axes = names.iter().take(MOST_COLUMNS).filter(|name| axis_of(name).is_some()).count();
         (axes >= 3).then_some((number, names))
     }
 
@@ -86,6 +89,10 @@ impl<'a> Top<'a> {
         }
         let separator = self.separator();
         let found = columns(first, separator);
+        if found.len() > MOST_COLUMNS {
+            let needed = format!("at most {MOST_COLUMNS} fields in a line");
+            return Err(Flaw::needed(&needed, "more").at_line(line));
+        }
         let rest = super::offset_of(bytes, line + 1);
         let row = sample(&bytes[rest..], separator);
         let has_names = !found.iter().all(|field| field.is_empty() || number_of(field).is_some());
@@ -136,7 +143,10 @@ pub(super) fn begins_with_numbers(columns: &[String]) -> bool {
 /// Whether a line names x, y and z.
 fn names_place(line: &[u8]) -> bool {
     let columns = columns(line, separator_of(line));
-    (0..3).all(|axis| columns.iter().any(|name| axis_of(name) == Some(axis)))
+    let mut seen = [false; 3];
+    let axes = columns.iter().take(MOST_COLUMNS).filter_map(|name| axis_of(name));
+    axes.for_each(|axis| seen[axis] = true);
+    seen == [true; 3]
 }
 
 /// Whether a line has the numbers of columns from 0 on, as of a table of pandas without names.
@@ -227,7 +237,9 @@ pub(super) fn columns(line: &[u8], separator: Separator) -> Vec<String> {
     let mut fields = Vec::new();
     // A quote that does not end is found again where the line is read as a row.
     let _ = rows.split(line, &mut fields);
-    fields.into_iter().map(|field| word(field.trim_ascii()).into_owned()).collect()
+    // One more than there may be tells that there are too many.
+    let fields = fields.into_iter().take(MOST_COLUMNS + 1);
+    fields.map(|field| word(field.trim_ascii()).into_owned()).collect()
 }
 
 pub(super) fn number_of(field: &str) -> Option<f64> {
