@@ -35,8 +35,18 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
     } else {
         std::fs::read(path)
     };
-    let bytes = bytes.map_err(|source| LoadError::Read { file: named(path), source })?;
+    let bytes = bytes.map_err(|source| unreadable(path, source))?;
     Ok(unpacked(path, bytes.into())?.into_owned())
+}
+
+fn unreadable(path: &Path, source: io::Error) -> LoadError {
+    let names_many = path.file_name().is_some_and(|name| name.to_string_lossy().contains('%'));
+    if names_many && source.kind() == io::ErrorKind::NotFound {
+        return Flaw::needed("the name of one file", "a pattern of many")
+            .or("animate draws them all; for one picture name one of them")
+            .in_file(&named(path));
+    }
+    LoadError::Read { file: named(path), source }
 }
 
 /// The bytes of a file of that name, unpacked where they are packed, once or twice.
@@ -108,6 +118,13 @@ mod tests {
             assert_eq!(ending(Path::new(name)).as_deref(), Some(expected));
         }
         assert_eq!(ending(Path::new("csv")), None);
+    }
+
+    #[test]
+    fn a_pattern_is_told_from_a_file() {
+        let message = |name: &str| read(Path::new(name)).expect_err("missing").to_string();
+        assert!(message("frame-%04d.xyz").contains("animate draws them all"));
+        assert_eq!(message("frame.xyz"), "cannot read frame.xyz");
     }
 
     #[test]
