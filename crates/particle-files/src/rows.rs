@@ -217,9 +217,21 @@ impl Rows {
             DecimalMark::Point if number(found, DecimalMark::Comma).is_some_and(f64::is_finite) => {
                 flaw.or("a decimal comma is read where ; or a tab stands between fields")
             }
+            _ if has_thousands(&shown) => flaw.or("write numbers without separators of thousands"),
             _ => flaw,
         }
     }
+}
+
+/// Whether a text is a number but for points, commas, blanks or apostrophes before three digits.
+fn has_thousands(text: &str) -> bool {
+    let is_separator = |c: char| ".,' \u{a0}\u{2019}\u{202f}".contains(c);
+    let digits = text.trim_start_matches(['-', '+']);
+    let mut groups = digits.split(is_separator);
+    let is_digits = |group: &str| !group.is_empty() && group.bytes().all(|b| b.is_ascii_digit());
+    groups.next().is_some_and(|first| first.len() <= 3 && is_digits(first))
+        && groups.next().is_some_and(|group| group.len() == 3)
+        && digits.split(is_separator).all(is_digits)
 }
 
 /// Fields with one byte between them, in double quotes or not. A quote within quotes is written twice;
@@ -333,6 +345,18 @@ mod tests {
         assert!(problem("1,a,\"2,5\",3,4\n").contains("decimal comma"));
         assert!(problem("1,a,2,3,4,5\n").contains("decimal comma"));
         assert!(problem("1,\"a,2,3,4\n").contains("quote"));
+    }
+
+    #[test]
+    fn separators_of_thousands_are_named() {
+        for text in ["1.234,5", "1,234.5", "-1'234.5", "12 345,6", "1.234.567", "1\u{2019}000"] {
+            assert!(has_thousands(text), "{text}");
+        }
+        for text in ["1.5", "1,25,5", "1234,500", "a.123", "", "-", "1..234", "1.2345,6"] {
+            assert!(!has_thousands(text), "{text}");
+        }
+        let flaw = rows().read(b"1,a,\"1,234.5\",3,4\n", 1).expect_err("refused");
+        assert!(flaw.problem.ends_with("without separators of thousands"), "{}", flaw.problem);
     }
 
     #[test]
