@@ -5,7 +5,7 @@ mod page;
 use std::path::PathBuf;
 
 use anyhow::Context;
-use bench_scenes::{Overrides, load};
+use bench_scenes::{Overrides, ReadOptions, load_as};
 use metaball_core::gpu::AdapterChoice;
 
 use crate::conclusions::conclusions;
@@ -29,6 +29,8 @@ pub const DEFAULT_SCENES: &[&str] =
 pub struct Options {
     /// Names, generators or files.
     pub scenes: Vec<String>,
+    /// How files are read.
+    pub reading: ReadOptions,
     /// What to change about every scene.
     pub overrides: Overrides,
     /// How.
@@ -58,9 +60,13 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
     let progress = ProgressBar::new(steps(&options.comparison) * options.scenes.len() as u64);
     for (index, spec) in options.scenes.iter().enumerate() {
         progress.stage(format!("{spec}: loading"));
-        let scene = load(spec, &options.overrides)
+        let scene = load_as(spec, &options.reading, &options.overrides)
             .map_err(anyhow::Error::from)
-            .and_then(|bench| compare_scene(gpu, &bench, &options.comparison, &progress))
+            .and_then(|bench| {
+                let notes = bench.file.iter().flat_map(|file| &file.notes);
+                notes.for_each(|note| progress.note(&format!("{spec}: {note}")));
+                compare_scene(gpu, &bench, &options.comparison, &progress)
+            })
             .with_context(|| format!("scene {spec}"));
         match scene {
             Ok(scene) => scenes.push(scene),
@@ -167,6 +173,7 @@ mod tests {
         };
         let options = Options {
             scenes: vec!["two-merging".to_owned()],
+            reading: ReadOptions::default(),
             overrides: Overrides::default(),
             comparison,
             adapter: None,

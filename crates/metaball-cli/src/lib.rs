@@ -46,7 +46,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Draw scenes with methods, hold the pictures against the reference, and write a page about it.
-    Compare(CompareArgs),
+    Compare(Box<CompareArgs>),
     /// Hold hits of any program against the reference, and print the row that compare would.
     ///
     /// One hit for each pixel of the scene's camera, as OpenEXR or NumPy: docs/hits-format.md. Needs no

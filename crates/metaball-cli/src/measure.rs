@@ -24,6 +24,7 @@ use metaball_core::Camera;
 use crate::camera::{CameraArgs, by_flag};
 use crate::names::{case_parser, configuration_parser, method_parser};
 use crate::reading::ReadingArgs;
+use crate::says::say_notes;
 use crate::shared::{AdapterArgs, FieldArgs, PictureArgs, extent};
 use crate::values;
 
@@ -59,6 +60,8 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "DIR", default_value = "out/compare")]
     out: PathBuf,
     #[command(flatten)]
+    reading: ReadingArgs,
+    #[command(flatten)]
     shared: PictureArgs,
 }
 
@@ -85,6 +88,7 @@ impl CompareArgs {
         let adapter = (!self.cpu).then(|| self.shared.adapter.choice());
         compare(&compare::Options {
             scenes: self.scenes,
+            reading: self.reading.options(),
             overrides,
             comparison,
             adapter,
@@ -123,6 +127,7 @@ impl ScoreArgs {
         // What is wrong with the hits is said before a large scene is loaded.
         let imported = hits.map(|file| ImportedHits::read(&name, &file)).transpose()?;
         let mut bench = load_as(&scene, &reading.options(), &field.overrides())?;
+        bench.file.iter().for_each(|file| say_notes(console::note, &file.notes));
         bench.camera =
             viewpoint.viewpoint().camera(&bench.camera, &bench.scene).map_err(by_flag)?;
         if camera {
