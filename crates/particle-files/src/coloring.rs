@@ -77,12 +77,8 @@ pub(crate) fn colors(
     table: &Table,
     by: &ColorBy,
     notes: &mut Notes,
-) -> Result<(Option<Vec<Color>>, Option<Legend>), Flaw> {
-    let column = column_for(table, &by.name).ok_or_else(|| {
-        let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
-        let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-        Flaw::needed(&format!("a column {:?} to colour by", by.name), found)
-    })?;
+) -> Result<(Vec<Color>, Legend), Flaw> {
+    let column = column_for(table, &by.name, "to colour by")?;
     let (colors, scale) = match &column.values {
         Values::Numbers(numbers) => {
             let (from, to) = by.range.unwrap_or_else(|| range_of(numbers));
@@ -110,7 +106,7 @@ pub(crate) fn colors(
             (colors, Scale::Words(words.different().iter().cloned().zip(each).collect()))
         }
     };
-    Ok((Some(colors), Some(Legend { title: column.name.clone(), scale })))
+    Ok((colors, Legend { title: column.name.clone(), scale }))
 }
 
 /// The least and the greatest number that is one.
@@ -153,7 +149,7 @@ mod tests {
         table.add("value", values);
         let by = by.parse().expect("legal");
         let (colors, legend) = colors(&table, &by, &mut Notes::default()).expect("legal");
-        (colors.expect("colours"), legend.expect("a legend").scale)
+        (colors, legend.scale)
     }
 
     #[test]

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::error::LoadError;
 use crate::file;
-use crate::notes::{Notes, counted};
+use crate::notes::Notes;
 use crate::options::ReadOptions;
 use crate::read::Content;
 use crate::table::Table;
@@ -53,7 +53,7 @@ pub fn convert(
             content.whole_table(options)?
         };
         let table = in_angstroms(table, options.units, &mut of_frame);
-        of_frame.read(counted(table.len(), if table.atoms { "atom" } else { "particle" }));
+        of_frame.read(table.counted());
         format.write(&table, to, &mut of_frame)?;
         if notes.is_empty() {
             notes = of_frame;

@@ -18,6 +18,8 @@ mod pdb;
 mod pdbqt;
 mod ply;
 mod pqr;
+#[cfg(test)]
+mod testing;
 mod trr;
 mod vtk;
 mod vtk_xml;

@@ -42,7 +42,10 @@ pub(crate) fn particles(
     let strengths =
         numbers(&table, Role::Strength).map(|(_, q)| q.iter().map(|q| *q as f32).collect());
     let (mut colors, legend) = match &options.color_by {
-        Some(by) => coloring::colors(&table, by, &mut notes)?,
+        Some(by) => {
+            let (colors, legend) = coloring::colors(&table, by, &mut notes)?;
+            (Some(colors), Some(legend))
+        }
         None => (colors_of_columns(&table, &mut notes)?, None),
     };
     if colors.is_none() && substance == Substance::Molecule {

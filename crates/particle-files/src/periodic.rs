@@ -7,7 +7,6 @@ use crate::error::Flaw;
 use crate::notes::counted;
 use crate::options::ReadOptions;
 use crate::particles::{Particles, Radii, Sizes};
-use crate::table::{Column, Lines, Values};
 
 /// The particles of as many cells as are asked for, one cell now; wrapped into it where it is to go on
 /// across its faces.
@@ -128,23 +127,13 @@ impl Particles {
             Sizes::Shown(radii) => Sizes::Shown(floats(radii)),
             Sizes::Spacing(radius) => Sizes::Spacing(*radius),
         };
-        let lines = indices.iter().filter_map(|index| self.lines.get(*index)).collect();
-        let column = |column: &Column| Column {
-            name: column.name.clone(),
-            values: match &column.values {
-                Values::Numbers(numbers) => {
-                    Values::Numbers(indices.iter().map(|index| numbers[*index]).collect())
-                }
-                Values::Words(words) => Values::Words(words.at(indices)),
-            },
-        };
         Self {
             positions: indices.iter().map(|index| self.positions[*index]).collect(),
             sizes,
             strengths: self.strengths.as_ref().map(floats),
             colors: self.colors.as_ref().map(|all| indices.iter().map(|i| all[*i]).collect()),
-            columns: self.columns.iter().map(column).collect(),
-            lines: if self.lines == Lines::None { Lines::None } else { Lines::Each(lines) },
+            columns: self.columns.iter().map(|column| column.at(indices)).collect(),
+            lines: self.lines.at(indices),
             ..self
         }
     }

@@ -89,7 +89,7 @@ impl<'a> Content<'a> {
         options.check()?;
         let mut notes = self.notes_of_frame(options)?;
         let table = self.joined_table(&options.request(), options, &mut notes)?;
-        notes.read(counted(table.len(), if table.atoms { "atom" } else { "particle" }));
+        notes.read(table.counted());
         let in_file = |flaw: Flaw| flaw.in_file(&self.file);
         let particles = interpret::particles(table, options, notes).map_err(in_file)?;
         let particles = periodic::repeated(particles, options).map_err(in_file)?;

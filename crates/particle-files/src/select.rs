@@ -114,12 +114,7 @@ impl Selection {
 impl Rule {
     /// The indices of its particles.
     fn of(&self, table: &Table) -> Result<Vec<usize>, Flaw> {
-        let column = column_for(table, &self.column).ok_or_else(|| {
-            let names: Vec<&str> =
-                table.columns.iter().map(|column| column.name.as_str()).collect();
-            let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            Flaw::needed(&format!("a column {:?} for {:?}", self.column, self.text), found)
-        })?;
+        let column = column_for(table, &self.column, &format!("for {:?}", self.text))?;
         let indices = 0..column.values.len();
         Ok(match (&self.matches, &column.values) {
             (Matches::AnyOf(wanted), Values::Words(words)) => {
@@ -148,13 +143,21 @@ fn same(wanted: &str, word: &str) -> bool {
     wanted.eq_ignore_ascii_case(word)
 }
 
-/// The column of that name, or else of the role that the name has.
-pub(crate) fn column_for<'a>(table: &'a Table, name: &str) -> Option<&'a Column> {
+/// The column of that name, or else of the role that the name has; the flaw says what it is needed for.
+pub(crate) fn column_for<'a>(
+    table: &'a Table,
+    name: &str,
+    purpose: &str,
+) -> Result<&'a Column, Flaw> {
     let by_role = || {
         let role = Role::of(name)?;
         table.columns.iter().find(|column| Role::of(&column.name) == Some(role))
     };
-    table.column(name).or_else(by_role)
+    table.column(name).or_else(by_role).ok_or_else(|| {
+        let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+        let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        Flaw::needed(&format!("a column {name:?} {purpose}"), found)
+    })
 }
 
 #[cfg(test)]

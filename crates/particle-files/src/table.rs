@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use crate::cell::Cell;
+use crate::notes::counted;
 use crate::units::Unit;
 
 /// One frame of a file.
@@ -74,6 +75,11 @@ impl Table {
         self.columns.iter().find(|column| column.name.eq_ignore_ascii_case(name))
     }
 
+    /// How many particles there are, in words.
+    pub(crate) fn counted(&self) -> String {
+        counted(self.len(), if self.atoms { "atom" } else { "particle" })
+    }
+
     /// Adds a column.
     pub(crate) fn add(&mut self, name: impl Into<String>, values: Values) {
         debug_assert_eq!(values.len(), self.len(), "a value for each particle");
@@ -83,20 +89,25 @@ impl Table {
     /// The particles at these indices.
     #[must_use]
     pub(crate) fn at(&self, indices: &[usize]) -> Self {
-        let values = |values: &Values| match values {
+        Self {
+            positions: indices.iter().map(|index| self.positions[*index]).collect(),
+            columns: self.columns.iter().map(|column| column.at(indices)).collect(),
+            lines: self.lines.at(indices),
+            ..*self
+        }
+    }
+}
+
+impl Column {
+    /// The values at these indices.
+    pub(crate) fn at(&self, indices: &[usize]) -> Self {
+        let values = match &self.values {
             Values::Numbers(numbers) => {
                 Values::Numbers(indices.iter().map(|index| numbers[*index]).collect())
             }
             Values::Words(words) => Values::Words(words.at(indices)),
         };
-        let column =
-            |column: &Column| Column { name: column.name.clone(), values: values(&column.values) };
-        Self {
-            positions: indices.iter().map(|index| self.positions[*index]).collect(),
-            columns: self.columns.iter().map(column).collect(),
-            lines: self.lines.at(indices),
-            ..*self
-        }
+        Self { name: self.name.clone(), values }
     }
 }
 
@@ -188,7 +199,7 @@ impl Words {
         self.indices.extend(others.indices.iter().map(|index| indices[*index as usize]));
     }
 
-    pub(crate) fn at(&self, indices: &[usize]) -> Self {
+    fn at(&self, indices: &[usize]) -> Self {
         let mut words = Self::default();
         indices.iter().for_each(|index| words.push(self.get(*index)));
         words
@@ -252,7 +263,8 @@ impl Lines {
             .for_each(|(index, line)| self.push(mine + index, line));
     }
 
-    fn at(&self, indices: &[usize]) -> Self {
+    /// The lines at these indices.
+    pub(crate) fn at(&self, indices: &[usize]) -> Self {
         match self {
             Self::None => Self::None,
             _ => Self::Each(indices.iter().filter_map(|index| self.get(*index)).collect()),

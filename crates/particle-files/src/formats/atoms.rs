@@ -422,6 +422,7 @@ fn packed(atom: &Atom<'_>) -> Option<u128> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formats::testing::words;
     use crate::notes::NoteKind;
 
     const WANTS: Wants = Wants { chain: true, numbers: [true; NUMBERS] };
@@ -449,11 +450,6 @@ mod tests {
         let table = all.table(&mut notes);
         let left_out = notes.iter().filter(|note| note.kind == NoteKind::LeftOut);
         (table, left_out.map(|note| note.text.clone()).collect())
-    }
-
-    fn words(table: &Table, name: &str) -> Vec<String> {
-        let column = table.column(name).expect("a column of that name");
-        (0..table.len()).map(|index| column.values.text(index).into_owned()).collect()
     }
 
     #[test]

@@ -238,6 +238,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::formats::testing::words;
     use crate::table::{Lines, Values};
     use crate::units::Unit;
 
@@ -248,11 +249,6 @@ mod tests {
 
     fn refusal(text: &str) -> String {
         read(text).expect_err("refused").in_file("balls.csv").to_string()
-    }
-
-    fn words(table: &Table, name: &str) -> Vec<String> {
-        let column = table.column(name).expect("a column of that name");
-        (0..table.len()).map(|index| column.values.text(index).into_owned()).collect()
     }
 
     #[test]

@@ -265,6 +265,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::formats::testing::{changed, words};
 
     fn read_all(text: &str) -> Result<Vec<(Table, Vec<String>)>, Flaw> {
         let read = |span: Span| {
@@ -281,11 +282,6 @@ mod tests {
 
     fn refusal(text: &str) -> String {
         read_all(text).expect_err("refused").in_file("a.cif").to_string()
-    }
-
-    fn words(table: &Table, name: &str) -> Vec<String> {
-        let column = table.column(name).expect("a column of that name");
-        (0..table.len()).map(|index| column.values.text(index).into_owned()).collect()
     }
 
     fn looped(names: &str, rows: &str) -> String {
@@ -437,6 +433,12 @@ mod tests {
         }
     }
 
+    fn with_models_and_alternatives() -> Vec<u8> {
+        let names = format!("{FEW} pdbx_PDB_model_num label_alt_id");
+        let cell = "_cell.length_a 10 _cell.length_b 10 _cell.length_c 10\n";
+        (looped(&names, "C 1 2 3 1 A\n'O' 1 2 3 1 B\nC 1 2 3 2 .") + cell).into_bytes()
+    }
+
     fn try_all(bytes: &[u8]) {
         let _ = is_mmcif(bytes);
         for span in frames(bytes).unwrap_or_default() {
@@ -457,20 +459,7 @@ mod tests {
         }
 
         #[test]
-        fn no_change_of_a_good_file_panics(
-            changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..3_u8), 1..8),
-        ) {
-            let names = format!("{FEW} pdbx_PDB_model_num label_alt_id");
-            let cell = "_cell.length_a 10 _cell.length_b 10 _cell.length_c 10\n";
-            let mut bytes = (looped(&names, "C 1 2 3 1 A\n'O' 1 2 3 1 B\nC 1 2 3 2 .") + cell).into_bytes();
-            for (at, byte, how) in changes {
-                let at = at.index(bytes.len());
-                match how {
-                    0 => bytes[at] = byte,
-                    1 => bytes.insert(at, byte),
-                    _ => drop(bytes.remove(at)),
-                }
-            }
+        fn no_change_of_a_good_file_panics(bytes in changed(with_models_and_alternatives())) {
             try_all(&bytes);
         }
     }

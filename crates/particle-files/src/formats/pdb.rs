@@ -232,6 +232,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::formats::testing::{changed, words};
     use crate::table::Values;
 
     fn read_all(text: &str) -> Result<(Table, Vec<String>), Flaw> {
@@ -247,11 +248,6 @@ mod tests {
 
     fn refusal(text: &str) -> String {
         read_all(text).expect_err("refused").in_file("a.pdb").to_string()
-    }
-
-    fn words(table: &Table, name: &str) -> Vec<String> {
-        let column = table.column(name).expect("a column of that name");
-        (0..table.len()).map(|index| column.values.text(index).into_owned()).collect()
     }
 
     const ATOM: &str =
@@ -516,18 +512,7 @@ mod tests {
         }
 
         #[test]
-        fn no_change_of_a_good_file_panics(
-            changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..3_u8), 1..8),
-        ) {
-            let mut bytes = good().into_bytes();
-            for (at, byte, how) in changes {
-                let at = at.index(bytes.len());
-                match how {
-                    0 => bytes[at] = byte,
-                    1 => bytes.insert(at, byte),
-                    _ => drop(bytes.remove(at)),
-                }
-            }
+        fn no_change_of_a_good_file_panics(bytes in changed(good().into_bytes())) {
             try_all(&bytes);
         }
 

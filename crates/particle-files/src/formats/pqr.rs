@@ -148,17 +148,13 @@ mod tests {
 
     use super::*;
     use crate::formats::Format;
+    use crate::formats::testing::words;
 
     fn read_all(text: &str) -> Result<(Table, Vec<String>), Flaw> {
         let mut notes = Notes::default();
         let spans = frames(text.as_bytes())?;
         let table = table(text.as_bytes(), &spans[0], &Request::default(), &mut notes)?;
         Ok((table, notes.iter().map(|note| note.text.clone()).collect()))
-    }
-
-    fn words(table: &Table, name: &str) -> Vec<String> {
-        let column = table.column(name).expect("a column of that name");
-        (0..table.len()).map(|index| column.values.text(index).into_owned()).collect()
     }
 
     const COLUMNS: &str = "ATOM      1  CA  ALA     1       1.000   2.000   3.000  0.1414 1.8240\n";

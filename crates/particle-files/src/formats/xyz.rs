@@ -407,6 +407,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::formats::testing::words;
     use crate::table::Lines;
 
     fn read(text: &str) -> Result<Table, Flaw> {
@@ -416,11 +417,6 @@ mod tests {
 
     fn refusal(text: &str) -> String {
         read(text).expect_err("refused").in_file("balls.xyz").to_string()
-    }
-
-    fn words(table: &Table, name: &str) -> Vec<String> {
-        let column = table.column(name).expect("a column of that name");
-        (0..table.len()).map(|index| column.values.text(index).into_owned()).collect()
     }
 
     #[test]
