@@ -13,15 +13,17 @@ mod fitted;
 mod modified;
 mod part;
 mod plane;
+mod pool;
 
 use metaball_core::{Aabb, Kernel, Metaball, SceneError, check_ball, check_field};
 use rayon::prelude::*;
 
 use self::ball::{Ball, bounds_of};
-use self::branch::Branch;
+use self::branch::{Branch, GrownPieces};
 pub use self::error::BuildError;
 use self::part::{Cell, Division, Halves, Part};
 use self::plane::MAX_BINS;
+use self::pool::Pool;
 use crate::node::{MAX_DEPTH, Node};
 use crate::options::{Options, Structure};
 use crate::{Field, Tree};
@@ -45,17 +47,19 @@ impl Tree {
         if !(2..=MAX_BINS as u32).contains(&options.bins) {
             return Err(BuildError::Bins { found: options.bins });
         }
-        let mut balls = copy(field)?;
+        let balls = copy(field)?;
         let builder = Builder {
             kernel: field.kernel(),
             threshold: field.threshold(),
             max_depth: options.max_depth.min(MAX_DEPTH),
             radius: common(&balls, Ball::radius),
             strength: common(&balls, |ball| ball.strength),
+            greatest_strength: greatest_strength(&balls),
             options: *options,
+            grown: GrownPieces::default(),
         };
         let mut branch = Branch::new();
-        let root = if balls.is_empty() { None } else { builder.root(&mut balls, &mut branch) };
+        let root = if balls.is_empty() { None } else { builder.root(balls, &mut branch) };
         branch.finish(root, options.kind())
     }
 }
@@ -80,9 +84,13 @@ fn copy(field: &impl Field) -> Result<Vec<Ball>, SceneError> {
 }
 
 /// The value of a property that is the same for all balls.
-fn common(balls: &[Ball], value: impl Fn(&Ball) -> f32) -> Option<f32> {
+fn common(balls: &[Ball], value: impl Fn(&Ball) -> f32 + Sync) -> Option<f32> {
     let first = value(balls.first()?);
-    balls.iter().all(|ball| value(ball) == first).then_some(first)
+    balls.par_iter().all(|ball| value(ball) == first).then_some(first)
+}
+
+fn greatest_strength(balls: &[Ball]) -> f32 {
+    balls.par_iter().map(|ball| ball.strength).reduce(|| 0.0, f32::max)
 }
 
 /// What the divisions of all nodes share.
@@ -94,24 +102,28 @@ struct Builder {
     radius: Option<f32>,
     /// Their strength, likewise.
     strength: Option<f32>,
+    greatest_strength: f32,
     options: Options,
+    grown: GrownPieces,
 }
 
 impl Builder {
     /// Builds the tree of all balls, if there is any surface.
-    fn root(&self, balls: &mut Vec<Ball>, branch: &mut Branch) -> Option<(u32, Aabb)> {
-        let bounds = bounds_of(balls);
+    fn root(&self, mut balls: Vec<Ball>, branch: &mut Branch) -> Option<(u32, Aabb)> {
+        let bounds = bounds_of(&balls);
         let whole = Part { list: 0..0, bounds, cell: Cell::ALL, depth: 0 };
         let all = Part { list: 0..balls.len(), ..whole.clone() };
         match self.options.structure {
-            Structure::ModifiedBvh => self.grow(balls, &mut Vec::new(), whole, branch),
+            Structure::ModifiedBvh => self.grow(&mut balls, &mut Pool::default(), whole, branch),
             Structure::Fitted(fitting) => {
-                let root = self.fit(&fitting, balls, &all)?;
-                self.grow(&mut [], balls, root, branch)
+                let mut pool = Pool::new(balls);
+                let root = self.fit(&fitting, &mut pool, &all)?;
+                self.grow(&mut [], &mut pool, root, branch)
             }
             Structure::Certified(_) => {
-                let root = self.classify(balls, &all)?;
-                self.grow(&mut [], balls, root, branch)
+                let mut pool = Pool::new(balls);
+                let root = self.classify(&mut pool, &all)?;
+                self.grow(&mut [], &mut pool, root, branch)
             }
         }
     }
@@ -121,11 +133,11 @@ impl Builder {
     fn grow(
         &self,
         own: &mut [Ball],
-        pool: &mut Vec<Ball>,
+        pool: &mut Pool,
         mut part: Part,
         branch: &mut Branch,
     ) -> Option<(u32, Aabb)> {
-        let height = pool.len();
+        let height = pool.top();
         let subtree = loop {
             let division = match self.options.structure {
                 Structure::ModifiedBvh => self.divide_modified(own, pool, &part),
@@ -134,7 +146,7 @@ impl Builder {
             };
             match division {
                 Division::Leaf(list) => {
-                    break Some((self.leaf(own, &pool[list], &part, branch), part.bounds));
+                    break Some((self.leaf(own, pool.list(&list), &part, branch), part.bounds));
                 }
                 Division::Nothing => break None,
                 Division::One(only) => part = only,
@@ -151,7 +163,7 @@ impl Builder {
     fn fork(
         &self,
         own: &mut [Ball],
-        pool: &mut Vec<Ball>,
+        pool: &mut Pool,
         part: &Part,
         halves: Halves,
         branch: &mut Branch,
@@ -164,16 +176,15 @@ impl Builder {
         let index = branch.push_vacant();
         let first_right_leaf;
         // No part has more balls than its node. So below a node that is built on one thread all are,
-        // and in a forked one only vacant nodes precede the pieces of its parts.
+        // and in a forked one only its own vacant node precedes the pieces of its parts.
         let (left, right) = if balls >= FORK_FROM {
-            let mut left_pool = pool[left.list.clone()].to_vec();
-            left.list = 0..left_pool.len();
-            pool.truncate(right_end);
-            let mut right_branch = Branch::new();
-            let (left, right) = rayon::join(
-                || self.grow(left_own, &mut left_pool, left, branch),
-                || self.grow(right_own, pool, right, &mut right_branch),
+            let mut left_pool = pool.split_off(&left.list, right_end);
+            left.list = 0..left_pool.top();
+            let ((left_branch, left), (right_branch, right)) = rayon::join(
+                || self.grown.grow(|branch| self.grow(left_own, &mut left_pool, left, branch)),
+                || self.grown.grow(|branch| self.grow(right_own, pool, right, branch)),
             );
+            let left = branch.append(left_branch, left);
             first_right_leaf = branch.leaf_count();
             (left, branch.append(right_branch, right))
         } else {

@@ -3,11 +3,12 @@
 use glam::{Vec3, Vec3A, Vec4};
 use metaball_core::Aabb;
 
-/// A ball in two vector registers: the builder copies it from list to list.
+/// A ball in 24 bytes, of which one vector register takes the first 16: the builder copies it from list
+/// to list.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ball {
     /// The centre, and after it the support radius.
-    sphere: Vec4,
+    sphere: [f32; 4],
     pub(super) strength: f32,
     /// Index in the field.
     pub(super) index: u32,
@@ -18,18 +19,21 @@ pub(super) struct Ball {
 const SLACK: f32 = 1.0 + 1e-6;
 
 impl Ball {
+    /// No ball, where there is room for one.
+    pub(super) const NONE: Self = Self { sphere: [0.0; 4], strength: 0.0, index: 0 };
+
     pub(super) fn new(center: Vec3, radius: f32, strength: f32, index: u32) -> Self {
-        Self { sphere: center.extend(radius), strength, index }
+        Self { sphere: center.extend(radius).into(), strength, index }
     }
 
     #[inline]
     pub(super) fn center(&self) -> Vec3A {
-        Vec3A::from_vec4(self.sphere)
+        Vec3A::from_vec4(Vec4::from_array(self.sphere))
     }
 
     #[inline]
     pub(super) fn radius(&self) -> f32 {
-        self.sphere.w
+        self.sphere[3]
     }
 
     /// Whether the support sphere meets the box. Never false where it does.

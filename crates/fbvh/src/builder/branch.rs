@@ -1,9 +1,11 @@
 //! Subtrees under construction, and how they become one tree.
 
-use std::iter;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::{iter, mem};
 
 use bytemuck::Zeroable;
 use metaball_core::Aabb;
+use rayon::prelude::*;
 
 use super::error::BuildError;
 use crate::Tree;
@@ -17,14 +19,45 @@ pub(super) struct Branch {
 
 /// Nodes and leaves in preorder. References count from the piece's own first node and first leaf,
 /// and may reach into the pieces behind.
-#[derive(Default)]
-struct Piece {
+#[derive(Default, Clone)]
+pub(super) struct Piece {
     /// A node of whose parts none or only one turns out to hold surface stays vacant and is removed in
     /// the end.
     nodes: Vec<Node>,
     /// Until [`Branch::finish`], `first` is the length of the leaf's list.
     leaves: Vec<Leaf>,
     lists: Vec<u32>,
+}
+
+impl Piece {
+    fn clear(&mut self) {
+        self.nodes.clear();
+        self.leaves.clear();
+        self.lists.clear();
+    }
+}
+
+/// Pieces that have grown already, for others to grow in without moving.
+#[derive(Default)]
+pub(super) struct GrownPieces(Mutex<Vec<Piece>>);
+
+impl GrownPieces {
+    fn pieces(&self) -> MutexGuard<'_, Vec<Piece>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Lets a subtree grow in one of them, and keeps no more of it than the subtree needs.
+    pub(super) fn grow<T>(&self, subtree: impl FnOnce(&mut Branch) -> T) -> (Branch, T) {
+        let piece = self.pieces().pop().unwrap_or_default();
+        let mut branch = Branch { pieces: vec![piece] };
+        let root = subtree(&mut branch);
+        let first = branch.first();
+        let exact = first.clone();
+        let mut grown = mem::replace(first, exact);
+        grown.clear();
+        self.pieces().push(grown);
+        (branch, root)
+    }
 }
 
 const VACANT: Node = Node {
@@ -135,67 +168,132 @@ impl Branch {
     /// Lays the pieces out as one tree, without the vacant nodes, and with the lengths of lists
     /// turned into their starts. Checks that the indices are wide enough.
     pub(super) fn finish(self, root: Option<(u32, Aabb)>, kind: Kind) -> Result<Tree, BuildError> {
-        let pieces = self.pieces;
+        let mut pieces = self.pieces;
         let total = |count: fn(&Piece) -> usize| pieces.iter().map(count).sum::<usize>();
         let entries = total(|piece| piece.lists.len());
         check("leaves", total(|piece| piece.leaves.len()), (LEAF - 1) as usize)?;
         check("list entries", entries, u32::MAX as usize)?;
 
-        let lists = || {
-            let mut lists = Vec::with_capacity(entries);
-            pieces.iter().for_each(|piece| lists.extend_from_slice(&piece.lists));
-            lists
-        };
-        let (nodes, (leaves, lists)) =
-            rayon::join(|| lay_nodes(&pieces), || (lay_leaves(&pieces), lists()));
-        let (nodes, numbers) = nodes;
+        // One array after the other, and each piece's goes when it is copied: two trees never exist at
+        // once.
+        let starts = Start::of(&pieces);
+        let lists = lay_lists(&mut pieces);
+        let leaves = lay_leaves(&mut pieces, &starts, entries as u32);
+        let (nodes, numbers) = lay_nodes(pieces, &starts);
         let (root, bounds) = root.unwrap_or((EMPTY, Aabb::EMPTY));
-        let root = if root & LEAF != 0 { root } else { numbers[root as usize] };
+        let root = if root & LEAF != 0 { root } else { numbers.of_node(root) };
         Ok(Tree { nodes, leaves, lists, root, bounds, kind })
     }
 }
 
-/// All nodes but the vacant ones, and the new number of each.
-fn lay_nodes(pieces: &[Piece]) -> (Vec<Node>, Vec<u32>) {
-    let all = || pieces.iter().flat_map(|piece| &piece.nodes);
-    let mut numbers = Vec::with_capacity(pieces.iter().map(|piece| piece.nodes.len()).sum());
-    let mut kept = 0;
-    numbers.extend(all().map(|node| {
-        let number = kept;
-        kept += u32::from(node.left != EMPTY);
-        number
-    }));
+/// What lies before a piece.
+struct Start {
+    nodes: usize,
+    leaves: usize,
+    entries: usize,
+}
 
-    let mut nodes = Vec::with_capacity(kept as usize);
-    let (mut first_node, mut first_leaf) = (0, 0);
-    for piece in pieces {
-        let renumbered = |reference: u32| match shifted(reference, first_node, first_leaf) {
-            leaf if leaf & LEAF != 0 => leaf,
-            node => numbers[node as usize],
+impl Start {
+    fn of(pieces: &[Piece]) -> Vec<Self> {
+        let (mut nodes, mut leaves, mut entries) = (0, 0, 0);
+        let start = |piece: &Piece| {
+            let start = Self { nodes, leaves, entries };
+            nodes += piece.nodes.len();
+            leaves += piece.leaves.len();
+            entries += piece.lists.len();
+            start
         };
-        nodes.extend(piece.nodes.iter().filter(|node| node.left != EMPTY).map(|node| Node {
-            left: renumbered(node.left),
-            right: renumbered(node.right),
-            first_right_leaf: node.first_right_leaf + first_leaf as u32,
-            ..*node
-        }));
-        first_node += piece.nodes.len();
-        first_leaf += piece.leaves.len();
+        pieces.iter().map(start).collect()
     }
+}
+
+/// An array in parts of these lengths.
+fn split<T>(mut array: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
+    let part = |length: usize| {
+        let (part, rest) = mem::take(&mut array).split_at_mut(length);
+        array = rest;
+        part
+    };
+    lengths.map(part).collect()
+}
+
+/// All lists, which are taken from their pieces.
+fn lay_lists(pieces: &mut [Piece]) -> Vec<u32> {
+    let mut lists = vec![0; pieces.iter().map(|piece| piece.lists.len()).sum()];
+    let parts = split(&mut lists, pieces.iter().map(|piece| piece.lists.len()));
+    parts.into_par_iter().zip(pieces).for_each(|(part, piece)| {
+        part.copy_from_slice(&mem::take(&mut piece.lists));
+    });
+    lists
+}
+
+/// All leaves and the sentinel, with the starts of their lists. The leaves are taken from their pieces.
+fn lay_leaves(pieces: &mut [Piece], starts: &[Start], entries: u32) -> Vec<Leaf> {
+    let count = pieces.iter().map(|piece| piece.leaves.len()).sum::<usize>();
+    let sentinel = Leaf { first: entries, ..Leaf::zeroed() };
+    let mut leaves: Vec<_> = (0..=count).into_par_iter().map(|_| sentinel).collect();
+    let parts = split(&mut leaves, pieces.iter().map(|piece| piece.leaves.len()));
+    parts.into_par_iter().zip(pieces).zip(starts).for_each(|((part, piece), start)| {
+        let mut first = start.entries as u32;
+        for (to, leaf) in iter::zip(part, mem::take(&mut piece.leaves)) {
+            *to = Leaf { first, ..leaf };
+            first += leaf.first;
+        }
+    });
+    leaves
+}
+
+/// All nodes but the vacant ones, and their new numbers.
+fn lay_nodes(pieces: Vec<Piece>, starts: &[Start]) -> (Vec<Node>, Numbers) {
+    let numbers = Numbers::of(pieces.iter().flat_map(|piece| &piece.nodes));
+    let mut nodes: Vec<_> = (0..numbers.count).into_par_iter().map(|_| VACANT).collect();
+    let kept = |piece: &Piece| piece.nodes.iter().filter(|node| node.left != EMPTY).count();
+    let parts = split(&mut nodes, pieces.iter().map(kept));
+    parts.into_par_iter().zip(pieces).zip(starts).for_each(|((part, piece), start)| {
+        let renumbered = |reference: u32| match shifted(reference, start.nodes, start.leaves) {
+            leaf if leaf & LEAF != 0 => leaf,
+            node => numbers.of_node(node),
+        };
+        let kept = piece.nodes.iter().filter(|node| node.left != EMPTY);
+        for (to, node) in iter::zip(part, kept) {
+            *to = Node {
+                left: renumbered(node.left),
+                right: renumbered(node.right),
+                first_right_leaf: node.first_right_leaf + start.leaves as u32,
+                ..*node
+            };
+        }
+    });
     (nodes, numbers)
 }
 
-/// All leaves and the sentinel, with the starts of their lists.
-fn lay_leaves(pieces: &[Piece]) -> Vec<Leaf> {
-    let mut first = 0;
-    let mut leaves =
-        Vec::with_capacity(pieces.iter().map(|piece| piece.leaves.len()).sum::<usize>() + 1);
-    for leaf in pieces.iter().flat_map(|piece| &piece.leaves) {
-        leaves.push(Leaf { first, ..*leaf });
-        first += leaf.first;
+/// The numbers of nodes when the vacant ones are removed.
+struct Numbers {
+    /// Of 64 nodes each: which are kept, and how many before.
+    blocks: Vec<(u64, u32)>,
+    /// Of all that are kept.
+    count: u32,
+}
+
+impl Numbers {
+    fn of<'a>(nodes: impl Iterator<Item = &'a Node>) -> Self {
+        let (mut blocks, mut count) = (Vec::new(), 0);
+        for (at, node) in nodes.enumerate() {
+            if at % 64 == 0 {
+                blocks.push((0, count));
+            }
+            if node.left != EMPTY {
+                blocks[at / 64].0 |= 1 << (at % 64);
+                count += 1;
+            }
+        }
+        Self { blocks, count }
     }
-    leaves.push(Leaf { first, ..Leaf::zeroed() });
-    leaves
+
+    fn of_node(&self, node: u32) -> u32 {
+        let (kept, before) = self.blocks[node as usize / 64];
+        before + (kept & ((1 << (node % 64)) - 1)).count_ones()
+    }
 }
 
 fn check(what: &'static str, found: usize, limit: usize) -> Result<(), BuildError> {

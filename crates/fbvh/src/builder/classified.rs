@@ -10,8 +10,9 @@ use metaball_core::Aabb;
 use super::Builder;
 use super::ball::Ball;
 use super::fit::{Reach, keep_reaching};
-use super::part::{Division, Halves, Part, divide};
+use super::part::{Division, Halves, Part};
 use super::plane::{Plane, centers_of, cut, cut_space, face, longest_axis};
+use super::pool::Pool;
 use crate::options::{Classes, Cost};
 
 /// A plane whose cost is more than this share of a leaf's saves too little: the middle of the longest
@@ -48,10 +49,10 @@ impl Builder {
     pub(super) fn divide_classified(
         &self,
         classes: &Classes,
-        pool: &mut Vec<Ball>,
+        pool: &mut Pool,
         part: &Part,
     ) -> Division {
-        let list = &pool[part.list.clone()];
+        let list = pool.list(&part.list);
         // A node that was found solid has no list.
         if list.is_empty() {
             return Division::Leaf(0..0);
@@ -67,9 +68,9 @@ impl Builder {
         let side = part.bounds.extent().max_element();
         let face = widened(&face(&part.bounds, &plane), side);
         let is_wide = side > WIDEST * radii.0;
-        let (left, right) = divide(pool, &part.list, &plane, &face);
+        let (left, right) = pool.divide(&part.list, &plane, &face);
         let separates_none = left.len().min(right.len()) == part.list.len();
-        if separates_none && !is_wide && are_coincident(&pool[part.list.clone()]) {
+        if separates_none && !is_wide && are_coincident(pool.list(&part.list)) {
             return Division::Leaf(part.list.clone());
         }
         let (left_bounds, right_bounds) = cut(&part.bounds, plane.axis, plane.at);
@@ -87,8 +88,8 @@ impl Builder {
 
     /// Drops the list of a part that is solid, and fits any other to where its balls can make a
     /// surface. `None` where they cannot.
-    pub(super) fn classify(&self, pool: &mut [Ball], part: &Part) -> Option<Part> {
-        let list = &mut pool[part.list.clone()];
+    pub(super) fn classify(&self, pool: &mut Pool, part: &Part) -> Option<Part> {
+        let list = pool.list_mut(&part.list);
         if self.is_solid(list, &widened(&part.bounds, part.bounds.extent().max_element())) {
             return Some(Part { list: part.list.start..part.list.start, ..*part });
         }

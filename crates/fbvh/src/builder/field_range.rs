@@ -3,11 +3,9 @@
 //! Over a box every ball's part of the field is largest at the box's nearest point to the centre and
 //! smallest at its farthest, so sums of the two bound the field.
 //!
-//! Sums of either kind end as soon as they are above T. So a few balls suffice to show that a box is
-//! solid, or that it is not empty; and balls that do not contain the whole box, most of them in all but
-//! the smallest boxes, add nothing to the lower bound. Boxes that are neither, which are only divided
-//! further, need no certainty: f32 decides most of them, and f64 confirms only what f32 finds solid or
-//! empty.
+//! Sums are made in f32 first, and decide wherever they are farther from T than all of their rounding.
+//! A lower bound ends as soon as it is certainly above T, an upper one as soon as it is above: a box that
+//! is not empty is only divided further, which needs no certainty. What is left open is summed in f64.
 
 use glam::{DVec3, Vec3A};
 use metaball_core::Aabb;
@@ -18,21 +16,36 @@ use super::ball::Ball;
 /// Sums of n ≤ 2³² non-negative f64 terms of a few products each err by less than this share.
 const ROUNDING: f64 = 1e-6;
 
+/// What a ball of strength 1 adds errs in f32 by less than this. Its depth, at most 1 in size, errs by ten
+/// roundings of 6e-8: two of each offset, three of their squares' sum, the radius's square, the quotient
+/// and the difference. No kernel is steeper than 8, and none takes more than ten roundings of its own.
+const TERM_ROUNDING: f64 = 8.0 * 6e-7 + 6e-7;
+
+/// A sum of n terms that are not negative errs in f32 by less than n times this share of it, for n up to
+/// [`MOST_TERMS`]: each addition by a factor of 1 + 2⁻²⁴, and (1 + 2⁻²⁴)ⁿ − 1 ≤ 1.72n·2⁻²⁴.
+const SUM_ROUNDING: f64 = 1.1e-7;
+
+/// The longest list that is summed in f32 for certain.
+const MOST_TERMS: usize = 1 << 24;
+
 impl Builder {
     /// Whether the field is certainly at T or below in the whole box.
     pub(super) fn is_empty(&self, list: &[Ball], bounds: &Aabb) -> bool {
         let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
-        let mut most = 0.0;
+        let mut near_most = 0.0;
         let is_reached = list.iter().any(|ball| {
             let center = ball.center();
-            most += self.near_part_at(ball, center - center.clamp(near_low, near_high));
-            most > self.threshold
+            near_most += self.near_part_at(ball, center - center.clamp(near_low, near_high));
+            near_most > self.threshold
         });
         if is_reached {
             return false;
         }
-        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let threshold = f64::from(self.threshold) * (1.0 - ROUNDING);
+        if f64::from(near_most) + self.error(list.len(), near_most) < threshold * (1.0 - ROUNDING) {
+            return true;
+        }
+        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let mut most = 0.0;
         list.iter().all(|ball| {
             let center = ball.center().as_dvec3();
@@ -47,9 +60,10 @@ impl Builder {
         if self.radius.is_some_and(|radius| bounds.extent().length() > 2.0 * radius) {
             return false;
         }
+        let threshold = f64::from(self.threshold) * (1.0 + ROUNDING);
         let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
         let mut near_least = 0.0;
-        let may_be = list.iter().any(|ball| {
+        let is_certain = list.iter().any(|ball| {
             let center = ball.center();
             let farthest = (center - near_low).max(near_high - center);
             if farthest.length_squared() >= ball.radius() * ball.radius() {
@@ -57,12 +71,13 @@ impl Builder {
             }
             near_least += self.near_part_at(ball, farthest);
             near_least > self.threshold
+                && f64::from(near_least) - self.error(list.len(), near_least)
+                    > threshold * (1.0 + ROUNDING)
         });
-        if !may_be {
-            return false;
+        if is_certain || near_least <= self.threshold {
+            return is_certain;
         }
         let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-        let threshold = f64::from(self.threshold) * (1.0 + ROUNDING);
         let mut least = 0.0;
         list.iter().any(|ball| {
             let center = ball.center().as_dvec3();
@@ -71,7 +86,18 @@ impl Builder {
         })
     }
 
-    /// [`Builder::part_at`] in f32, for what that confirms, or what need not be certain.
+    /// What a sum in f32 over so many balls differs from the true one by, at most.
+    fn error(&self, balls: usize, sum: f32) -> f64 {
+        if balls > MOST_TERMS {
+            return f64::INFINITY;
+        }
+        // Below the least normal number products err by less than that.
+        let least = f64::from(f32::MIN_POSITIVE);
+        let term = TERM_ROUNDING * f64::from(self.greatest_strength) + least;
+        balls as f64 * (term + SUM_ROUNDING * f64::from(sum))
+    }
+
+    /// [`Builder::part_at`] in f32.
     #[inline]
     fn near_part_at(&self, ball: &Ball, offset: Vec3A) -> f32 {
         let radius = ball.radius();
@@ -95,7 +121,8 @@ mod tests {
 
     use super::*;
     use crate::Options;
-    use crate::builder::common;
+    use crate::builder::branch::GrownPieces;
+    use crate::builder::{common, greatest_strength};
 
     /// A box among balls of radii that differ by up to 10,000. Coordinates are few, so that faces go
     /// through centres, rims and each other.
@@ -173,7 +200,9 @@ mod tests {
                     max_depth: 64,
                     radius: common(&balls, Ball::radius),
                     strength: common(&balls, |ball| ball.strength),
+                    greatest_strength: greatest_strength(&balls),
                     options: Options::certified(),
+                    grown: GrownPieces::default(),
                 };
                 let threshold = f64::from(threshold);
                 if builder.is_solid(&balls, &bounds) {
@@ -181,6 +210,56 @@ mod tests {
                 }
                 if builder.is_empty(&balls, &bounds) {
                     prop_assert!(most <= threshold, "empty, but {} > {}", most, threshold);
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            cases: 2000,
+            failure_persistence: None,
+            ..ProptestConfig::default()
+        })]
+
+        /// T is set to the bounds themselves, where sums in f32 are on either side of it by chance.
+        #[test]
+        fn sums_in_f32_decide_nothing_that_sums_in_f64_would_not(
+            (balls, bounds) in balls_and_box(),
+            kernel in prop::sample::select(Kernel::all().collect::<Vec<_>>()),
+        ) {
+            let builder = |threshold: f32| Builder {
+                kernel,
+                threshold,
+                max_depth: 64,
+                radius: common(&balls, Ball::radius),
+                strength: common(&balls, |ball| ball.strength),
+                greatest_strength: greatest_strength(&balls),
+                options: Options::certified(),
+                grown: GrownPieces::default(),
+            };
+            let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+            let any = builder(1.0);
+            let sum = |offset: fn(DVec3, DVec3, DVec3) -> DVec3| {
+                let part =
+                    |ball: &Ball| any.part_at(ball, offset(ball.center().as_dvec3(), low, high));
+                balls.iter().map(part).sum::<f64>()
+            };
+            let most = sum(|center, low, high| center - center.clamp(low, high));
+            let least = sum(|center, low, high| (center - low).max(high - center));
+            for (bound, is_least) in [(most, false), (least, true)] {
+                for threshold in [-4e-6, -2e-6, 0.0, 2e-6, 4e-6].map(|part| bound * (1.0 + part)) {
+                    if threshold < f64::from(f32::MIN_POSITIVE) {
+                        continue;
+                    }
+                    let builder = builder(threshold as f32);
+                    let threshold = f64::from(builder.threshold);
+                    if is_least && builder.is_solid(&balls, &bounds) {
+                        prop_assert!(least > threshold * (1.0 + ROUNDING));
+                    }
+                    if !is_least && builder.is_empty(&balls, &bounds) {
+                        prop_assert!(most <= threshold * (1.0 - ROUNDING));
+                    }
                 }
             }
         }
@@ -196,7 +275,9 @@ mod tests {
             max_depth: 64,
             radius: Some(2.0),
             strength: Some(1.0),
+            greatest_strength: 1.0,
             options: Options::certified(),
+            grown: GrownPieces::default(),
         };
         let bounds = Aabb { min: Vec3::new(1.0, -1.0, -1.0), max: Vec3::ONE };
         assert!(builder(0.0624).is_solid(&ball, &bounds));

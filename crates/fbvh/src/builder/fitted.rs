@@ -2,8 +2,9 @@
 
 use super::ball::{Ball, partition};
 use super::fit::{Reach, discard, keep_reaching};
-use super::part::{Division, Halves, Part, divide};
+use super::part::{Division, Halves, Part};
 use super::plane::{Plane, centers_of, cut, cut_space, face, longest_axis, weigh};
+use super::pool::Pool;
 use super::{Builder, MEDIAN_FROM};
 use crate::options::{Boxes, Fitting};
 
@@ -12,13 +13,13 @@ impl Builder {
     pub(super) fn divide_fitted(
         &self,
         fitting: &Fitting,
-        pool: &mut Vec<Ball>,
+        pool: &mut Pool,
         part: &Part,
     ) -> Division {
-        let Some(plane) = self.plane(&mut pool[part.list.clone()], part) else {
+        let Some(plane) = self.plane(pool.list_mut(&part.list), part) else {
             return Division::Leaf(part.list.clone());
         };
-        let (left, right) = divide(pool, &part.list, &plane, &face(&part.bounds, &plane));
+        let (left, right) = pool.divide(&part.list, &plane, &face(&part.bounds, &plane));
         let (left_bounds, right_bounds) = cut(&part.bounds, plane.axis, plane.at);
         let (left_cell, right_cell) = part.cell.cut(&plane);
         let depth = part.depth + 1;
@@ -34,8 +35,8 @@ impl Builder {
     }
 
     /// Fits a part, cut from the node above, to its balls. `None` where no surface can be.
-    pub(super) fn fit(&self, fitting: &Fitting, pool: &mut [Ball], part: &Part) -> Option<Part> {
-        let list = &mut pool[part.list.clone()];
+    pub(super) fn fit(&self, fitting: &Fitting, pool: &mut Pool, part: &Part) -> Option<Part> {
+        let list = pool.list_mut(&part.list);
         let reach = Reach::of(fitting.boxes, self.kernel, self.threshold, list)?;
         let bounds = match fitting.boxes {
             Boxes::Cut => part.bounds,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::ball::{Ball, bounds_of, partition};
 use super::part::{Division, Halves, Part};
 use super::plane::{centers_of, cut_centers, longest_axis};
+use super::pool::Pool;
 use super::{Builder, MEDIAN_FROM};
 
 /// Split balls of nodes with at most this many own balls are tested against each of them; above,
@@ -17,20 +18,20 @@ impl Builder {
     pub(super) fn divide_modified(
         &self,
         own: &mut [Ball],
-        pool: &mut Vec<Ball>,
+        pool: &mut Pool,
         part: &Part,
     ) -> Division {
         let Some((axis, middle)) = self.part_centers(own, part) else {
             return Division::Leaf(exact_splits(own, pool, &part.list));
         };
         let (left_own, right_own) = own.split_at(middle);
-        let side = |pool: &mut Vec<Ball>, own: &[Ball], others: &[Ball]| {
-            let start = pool.len();
+        let side = |pool: &mut Pool, own: &[Ball], others: &[Ball]| {
+            let start = pool.top();
             let bounds = bounds_of(own);
             gather(pool, &part.list, others, |ball| {
                 ball.reaches(&bounds) && (own.len() > EXACT_UP_TO || meets_any(ball, own))
             });
-            Part { list: start..pool.len(), bounds, cell: part.cell, depth: part.depth + 1 }
+            Part { list: start..pool.top(), bounds, cell: part.cell, depth: part.depth + 1 }
         };
         let left = side(pool, left_own, right_own);
         let right = side(pool, right_own, left_own);
@@ -74,13 +75,13 @@ impl Builder {
 }
 
 /// The split balls of a leaf, tested against each own ball unless its node was small enough for that.
-fn exact_splits(own: &[Ball], pool: &mut Vec<Ball>, splits: &Range<usize>) -> Range<usize> {
+fn exact_splits(own: &[Ball], pool: &mut Pool, splits: &Range<usize>) -> Range<usize> {
     if own.len() <= EXACT_UP_TO {
         return splits.clone();
     }
-    let start = pool.len();
+    let start = pool.top();
     gather(pool, splits, &[], |ball| meets_any(ball, own));
-    start..pool.len()
+    start..pool.top()
 }
 
 fn meets_any(ball: &Ball, own: &[Ball]) -> bool {
@@ -88,17 +89,12 @@ fn meets_any(ball: &Ball, own: &[Ball]) -> bool {
 }
 
 /// Appends to the pool those of a list in it and of `others` that satisfy the test.
-fn gather(
-    pool: &mut Vec<Ball>,
-    list: &Range<usize>,
-    others: &[Ball],
-    test: impl Fn(&Ball) -> bool,
-) {
+fn gather(pool: &mut Pool, list: &Range<usize>, others: &[Ball], test: impl Fn(&Ball) -> bool) {
     for at in list.clone() {
-        let ball = pool[at];
+        let ball = pool.ball(at);
         if test(&ball) {
             pool.push(ball);
         }
     }
-    pool.extend(others.iter().filter(|ball| test(ball)));
+    others.iter().filter(|ball| test(ball)).for_each(|ball| pool.push(*ball));
 }

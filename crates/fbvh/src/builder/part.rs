@@ -62,33 +62,3 @@ pub(super) struct Halves {
     /// the left part's.
     pub(super) left_own: usize,
 }
-
-/// Divides the list of a node that is cut in two: what reaches the left is appended to the pool,
-/// what reaches the right overwrites the node's list. Balls reach the node's box; so each reaches the
-/// part on whose side its centre is, and the other one if it reaches the face between them.
-pub(super) fn divide(
-    pool: &mut Vec<Ball>,
-    list: &Range<usize>,
-    plane: &Plane,
-    face: &Aabb,
-) -> (Range<usize>, Range<usize>) {
-    let mut end = Vec3A::INFINITY;
-    end[plane.axis] = plane.at;
-
-    let top = pool.len();
-    pool.extend_from_within(list.clone());
-    let (below, left) = pool.split_at_mut(top);
-    let right = &mut below[list.clone()];
-    let (mut left_count, mut right_count) = (0, 0);
-    for at in 0..list.len() {
-        let ball = left[at];
-        let is_left = ball.center().cmplt(end).all();
-        let crosses = ball.reaches(face);
-        left[left_count] = ball;
-        right[right_count] = ball;
-        left_count += usize::from(is_left | crosses);
-        right_count += usize::from(!is_left | crosses);
-    }
-    pool.truncate(top + left_count);
-    (top..top + left_count, list.start..list.start + right_count)
-}
