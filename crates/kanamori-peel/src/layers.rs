@@ -107,7 +107,7 @@ impl Layers {
 
     /// The depth of the nearest kernel spheres, cleared.
     pub(crate) fn kernels(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-        depth(&self.kernel_depth, Some(1.0))
+        depth(&self.kernel_depth, Some(wgpu::LoadOp::Clear(1.0)))
     }
 
     /// The same, to be read.
@@ -115,23 +115,27 @@ impl Layers {
         depth(&self.kernel_depth, None)
     }
 
-    /// A layer's points, cleared: TmpTex of figure 6.
-    pub(crate) fn points(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-        Some(target(&self.points, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))
+    /// A layer's points: TmpTex of figure 6. A ray for which the layer finds none keeps the last one.
+    pub(crate) fn points(&self, layer: u32) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+        Some(target(&self.points, clear_at_first(layer, wgpu::Color::TRANSPARENT)))
     }
 
-    /// The depth of a layer's points, cleared.
-    pub(crate) fn point_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-        depth(&self.point_depth, Some(1.0))
+    /// The depth of a layer's points; the test before has set it back for the rays that go on.
+    pub(crate) fn point_depth(&self, layer: u32) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        depth(&self.point_depth, Some(clear_at_first(layer, 1.0)))
     }
 
-    /// The lists before a layer, to be written where a tile has a ray without an answer; the others
-    /// are never read.
-    pub(crate) fn written_before(
+    /// The same, to be set back.
+    pub(crate) fn point_depth_after(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        depth(&self.point_depth, Some(wgpu::LoadOp::Load))
+    }
+
+    /// The lists after a layer, written for the rays that go on; the others' are never read.
+    pub(crate) fn lists_after(
         &self,
         layer: u32,
     ) -> Vec<Option<wgpu::RenderPassColorAttachment<'_>>> {
-        let targets = self.lists[layer as usize % 2].targets.iter();
+        let targets = self.lists[(layer as usize + 1) % 2].targets.iter();
         targets.map(|view| Some(target(view, wgpu::LoadOp::Load))).collect()
     }
 
@@ -146,6 +150,11 @@ impl Layers {
     }
 }
 
+/// Layers are counted from 0.
+fn clear_at_first<T>(layer: u32, value: T) -> wgpu::LoadOp<T> {
+    if layer == 0 { wgpu::LoadOp::Clear(value) } else { wgpu::LoadOp::Load }
+}
+
 fn target(
     view: &wgpu::TextureView,
     load: wgpu::LoadOp<wgpu::Color>,
@@ -158,17 +167,14 @@ fn target(
     }
 }
 
-/// A depth target: cleared and written, or only read.
+/// A depth target: written, or only read.
 fn depth(
     view: &wgpu::TextureView,
-    clear: Option<f32>,
+    written: Option<wgpu::LoadOp<f32>>,
 ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     wgpu::RenderPassDepthStencilAttachment {
         view,
-        depth_ops: clear.map(|value| wgpu::Operations {
-            load: wgpu::LoadOp::Clear(value),
-            store: wgpu::StoreOp::Store,
-        }),
+        depth_ops: written.map(|load| wgpu::Operations { load, store: wgpu::StoreOp::Store }),
         stencil_ops: None,
     }
 }

@@ -10,7 +10,7 @@
 //! several, which in Bernstein form is searched by Bézier clipping (section 3, appendix A). The
 //! first interval with a surface ends the ray.
 //!
-//! A frame is one encoder without read-back:
+//! A frame is one encoder; what it took is read when the next one is recorded:
 //!
 //! | pass | what | section |
 //! | --- | --- | --- |
@@ -18,7 +18,6 @@
 //! | `kernel spheres`, `seen` | depth of the kernel spheres; a flag for each ball seen before them | 5.2 |
 //! | `arrange` | which balls are drawn, and the list of those around the eye | 5.2 |
 //! | `register` | the balls of each tile, unless the host has sent them (`cpu:register`) | 5.3 |
-//! | `begin` | the lists that rays begin with | |
 //! | `turn` | per layer: tiles without an unanswered ray draw nothing any more | 5.3 |
 //! | `peel` | per layer: the nearest point behind the last one, tile by tile in one pass | 4.1, 5.1 |
 //! | `test` | per layer: search of the interval, and the list toggled | 4.2, 4.3, 5.4 |
@@ -39,8 +38,13 @@
 //! *Occlusion queries* become flags: fragments mark which balls are seen and which tiles have an
 //! unanswered ray. Culled balls lose their rectangle. A tile is a scissored indirect draw of the layer's
 //! one pass; once all its rays are answered it draws no instances, so that layers are recorded in
-//! advance, without reading back how many are needed. The kernel sphere's depth is the hit of the
-//! single case and ends every ray: balls behind it are culled, and no point behind it would be right.
+//! advance: a quarter more than the last frame took, and no more than a tile's balls can have points.
+//! The kernel sphere's depth is the hit of the single case and ends every ray: balls behind it are
+//! culled, and no point behind it would be right.
+//!
+//! *An answered ray* in a tile that goes on leaves both passes of a layer at once, by the hit that it
+//! has, and writes nothing. Nothing is cleared from layer to layer either: the test sets the depth back
+//! for the rays that go on, and a point that is not beyond the last one is the last one.
 //!
 //! *Registration on the host,* as published, has the rectangles and not what is seen: culled balls
 //! are registered and drop out in the vertex stage. [`Registration::Adapter`] leaves them out.
@@ -71,7 +75,7 @@
 //!
 //! A frame that runs out of layers is incomplete and is drawn again with twice as many; one whose tiles
 //! have more balls than their buffers hold, with buffers that hold them. [`Renderer`]'s `frame_facts`
-//! are the balls drawn and the share that was culled; its counters ([`metaball_core::Work`]) have the
+//! are the balls drawn, the share that was culled, and the layers taken; its counters ([`metaball_core::Work`]) have the
 //! iterations of clipping, in all and in the longest search. 144 bytes a pixel with K = 14. At most
 //! [`MOST_BALLS`] balls: indices are kept as f32. A kernel that is no polynomial along a ray is refused
 //! with [`metaball_core::gpu::RenderError::Unsupported`].
@@ -80,6 +84,7 @@ pub mod baseline;
 pub mod robust;
 
 mod balls;
+mod layer_limit;
 mod layers;
 mod layouts;
 mod options;

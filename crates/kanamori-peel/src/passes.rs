@@ -71,20 +71,6 @@ impl Passes<'_> {
         });
     }
 
-    /// The lists that rays begin with.
-    pub(crate) fn begin(&self, frame: &mut Frame<'_>) {
-        let targets = frame.targets();
-        self.tiles.begin(frame.encoder());
-        let colors = self.layers.written_before(0);
-        frame.render("begin", RenderAttachments { colors: &colors, depth: None }, |pass| {
-            self.bind(pass, targets);
-            // Nothing of group 3 is read: that of layer 1 has none of the targets.
-            pass.set_bind_group(3, self.layers.testing(1), &[]);
-            pass.set_pipeline(&self.pipelines.begin);
-            pass.draw(0..4, 0..1);
-        });
-    }
-
     /// What the tiles draw in the next layer.
     pub(crate) fn turn(&self, frame: &mut Frame<'_>) {
         let targets = frame.targets();
@@ -99,8 +85,8 @@ impl Passes<'_> {
     pub(crate) fn peel(&self, frame: &mut Frame<'_>, layer: u32, grid: &Grid) {
         let targets = frame.targets();
         let attachments = RenderAttachments {
-            colors: &[self.layers.points()],
-            depth: Some(self.layers.point_depth()),
+            colors: &[self.layers.points(layer)],
+            depth: Some(self.layers.point_depth(layer)),
         };
         frame.render("peel", attachments, |pass| {
             self.bind(pass, targets);
@@ -116,8 +102,9 @@ impl Passes<'_> {
     /// The search of the layer's intervals, and the lists after it.
     pub(crate) fn test(&self, frame: &mut Frame<'_>, layer: u32) {
         let targets = frame.targets();
-        let colors = self.layers.written_before(layer + 1);
-        frame.render("test", RenderAttachments { colors: &colors, depth: None }, |pass| {
+        let colors = self.layers.lists_after(layer);
+        let depth = Some(self.layers.point_depth_after());
+        frame.render("test", RenderAttachments { colors: &colors, depth }, |pass| {
             self.bind(pass, targets);
             pass.set_bind_group(3, self.layers.testing(layer), &[]);
             pass.set_pipeline(&self.pipelines.test);

@@ -22,7 +22,6 @@ pub(crate) struct Pipelines {
     pub(crate) turn: wgpu::ComputePipeline,
     pub(crate) kernels: wgpu::RenderPipeline,
     pub(crate) see: wgpu::RenderPipeline,
-    pub(crate) begin: wgpu::RenderPipeline,
     pub(crate) peel: wgpu::RenderPipeline,
     pub(crate) test: wgpu::RenderPipeline,
     pub(crate) account: wgpu::ComputePipeline,
@@ -90,6 +89,10 @@ impl Outline {
 /// The nearest fragment stays, and its depth.
 const KEEP_NEAREST: DepthTest =
     DepthTest { format: DEPTH_FORMAT, compare: wgpu::CompareFunction::Less, writes: true };
+
+/// Every fragment that is not discarded stays, with its depth.
+const SET_BACK: DepthTest =
+    DepthTest { format: DEPTH_FORMAT, compare: wgpu::CompareFunction::Always, writes: true };
 
 /// Every fragment is drawn; the depth is there to be read.
 const IGNORE: DepthTest =
@@ -179,19 +182,6 @@ impl Pipelines {
                     depth: Some(IGNORE),
                 },
             )?,
-            begin: raster(
-                &test,
-                RasterDescriptor {
-                    label: "begin",
-                    vertex: "cover_picture",
-                    fragment: "begin",
-                    primitive: TRIANGLE_STRIP,
-                    constants: &searching,
-                    layouts: &[frame, scene, drawing, &layouts.testing],
-                    targets: &lists,
-                    depth: None,
-                },
-            )?,
             peel: raster(
                 &peel,
                 RasterDescriptor {
@@ -215,7 +205,7 @@ impl Pipelines {
                     constants: &searching,
                     layouts: &[frame, scene, drawing, &layouts.testing],
                     targets: &lists,
-                    depth: None,
+                    depth: Some(SET_BACK),
                 },
             )?,
             account: test.compute(gpu, "account", "account", &spec, &[frame], &searching)?,

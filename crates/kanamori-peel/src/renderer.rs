@@ -9,28 +9,23 @@ use metaball_core::gpu::{
 };
 
 use crate::balls::{Balls, MOST_BALLS};
+use crate::layer_limit::LayerLimit;
 use crate::layers::Layers;
 use crate::options::{Options, Registration};
 use crate::passes::Passes;
 use crate::pipelines::Pipelines;
 use crate::registration::register;
-use crate::tiles::{Grid, TileBuffers};
-
-/// Layers that a renderer's first frame has.
-const FIRST_LAYERS: u32 = 64;
+use crate::tiles::{Grid, Tile, TileBuffers, most_layers};
 
 /// Registrations for each ball that a scene's buffers begin with.
 const FIRST_REGISTRATIONS: u32 = 4;
-
-/// The most layers: two points for each of the most balls.
-const MOST_LAYERS: u32 = 2 * MOST_BALLS as u32 + 1;
 
 /// Draws primary rays by depth peeling.
 pub struct Renderer {
     name: &'static str,
     options: Options,
     counting: bool,
-    layer_limit: u32,
+    layer_limit: LayerLimit,
     pipelines: Option<Pipelines>,
     balls: Option<Balls>,
     /// For the host's registration.
@@ -47,7 +42,7 @@ impl Renderer {
             name,
             options,
             counting,
-            layer_limit: FIRST_LAYERS,
+            layer_limit: LayerLimit::new(),
             pipelines: None,
             balls: None,
             supports: Vec::new(),
@@ -60,6 +55,12 @@ impl Renderer {
     #[cfg(test)]
     pub(crate) fn registration_capacity(&self) -> Option<u32> {
         self.tiles.as_ref().map(|tiles| tiles.capacity)
+    }
+
+    /// Layers that the last frame could have.
+    #[cfg(test)]
+    pub(crate) fn layer_limit(&self) -> u32 {
+        self.layer_limit.layers()
     }
 
     /// Rectangles of the last frame.
@@ -126,6 +127,7 @@ impl IsoRenderer for Renderer {
             _ => Layers::new(gpu, size, self.options.targets(), &pipelines.layouts)?,
         };
         let grid = Grid::new(self.options.tiles, [view.width(), view.height()]);
+        let mut most_balls = balls.count;
         if self.options.registration == Registration::Host {
             let (of_tiles, registered) =
                 frame.cpu("register", || register(&self.supports, view, &grid));
@@ -135,6 +137,7 @@ impl IsoRenderer for Renderer {
                     TileBuffers::new(gpu, balls, &pipelines.layouts, Registration::Host, capacity)?;
             }
             tiles.fill(gpu, &of_tiles, &registered)?;
+            most_balls = of_tiles.iter().map(|tile| tile.balls).max().unwrap_or(0);
         }
 
         let passes = Passes { pipelines, balls, tiles, layers: &layers, options: &self.options };
@@ -143,13 +146,13 @@ impl IsoRenderer for Renderer {
         if self.options.registration == Registration::Adapter {
             passes.register(frame);
         }
-        passes.begin(frame);
-        for layer in 0..self.layer_limit {
+        for layer in 0..self.layer_limit.next(gpu, most_layers(most_balls))? {
             passes.turn(frame);
             passes.peel(frame, layer, &grid);
             passes.test(frame, layer);
         }
         passes.account(frame);
+        self.layer_limit.note(gpu, frame.encoder(), tiles)?;
         self.layers = Some(layers);
         Ok(())
     }
@@ -159,19 +162,21 @@ impl IsoRenderer for Renderer {
     }
 
     /// `balls in view`, and `balls drawn` of them; `culled`, the share of the former that is not
-    /// among the latter (section 5.2); and `registrations`, in which a ball counts once for each of
-    /// its tiles (section 5.3).
+    /// among the latter (section 5.2); `registrations`, in which a ball counts once for each of its
+    /// tiles (section 5.3); and `layers`, of the tile that took most.
     fn frame_facts(&self, gpu: &Gpu) -> Result<Vec<(&'static str, f64)>, RenderError> {
         let (Some(balls), Some(tiles)) = (&self.balls, &self.tiles) else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
         let arranged = balls.arranged(gpu)?;
+        let tiles: Vec<Tile> = gpu.read(tiles.tiles())?;
         let [in_view, drawn] = [arranged.in_view, arranged.drawn].map(f64::from);
         Ok(vec![
             ("balls in view", in_view),
             ("balls drawn", drawn),
             ("culled", 1.0 - drawn / in_view.max(1.0)),
-            ("registrations", f64::from(tiles.registrations(gpu)?)),
+            ("registrations", tiles.iter().map(|tile| f64::from(tile.balls)).sum()),
+            ("layers", tiles.iter().map(|tile| f64::from(tile.layers)).fold(0.0, f64::max)),
         ])
     }
 
@@ -192,12 +197,9 @@ impl IsoRenderer for Renderer {
                 self.options.registration,
                 capacity,
             )?;
+            self.layer_limit.keep();
             return Ok(true);
         }
-        if self.layer_limit == MOST_LAYERS {
-            return Ok(false);
-        }
-        self.layer_limit = self.layer_limit.saturating_mul(2).min(MOST_LAYERS);
-        Ok(true)
+        Ok(self.layer_limit.grow())
     }
 }

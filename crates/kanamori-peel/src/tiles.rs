@@ -20,10 +20,18 @@ pub(crate) struct Tile {
     pub(crate) balls: u32,
     /// Not 0 where a ray of the tile has no answer before the current layer.
     pub(crate) is_live: u32,
+    /// Layers that the tile was given, with the current one.
+    pub(crate) layers: u32,
 }
 
 /// Bytes of an indirect draw: WGSL's `Draw` of `shaders/wgsl/kanamori_peel/turn.wgsl`.
 const DRAW_BYTES: u64 = 16;
+
+/// The most layers that a tile with so many balls takes: each ball has two points on a ray, and the
+/// last layer finds none.
+pub(crate) const fn most_layers(balls: u32) -> u32 {
+    2 * balls + 1
+}
 
 /// Elements of buffers with one a tile.
 pub(crate) const ALL_TILES: u64 = MOST_TILES as u64 * MOST_TILES as u64;
@@ -92,7 +100,6 @@ pub(crate) struct TileBuffers {
     pub(crate) capacity: u32,
     tiles: wgpu::Buffer,
     registered: wgpu::Buffer,
-    rays_left: wgpu::Buffer,
     bytes: u64,
 }
 
@@ -149,7 +156,6 @@ impl TileBuffers {
             capacity,
             tiles,
             registered,
-            rays_left,
         })
     }
 
@@ -171,13 +177,8 @@ impl TileBuffers {
         })
     }
 
-    /// Clears which rays the last frame left.
-    pub(crate) fn begin(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.clear_buffer(&self.rays_left, 0, None);
-    }
-
-    /// Registrations of the last frame: a ball counts in each of its tiles.
-    pub(crate) fn registrations(&self, gpu: &Gpu) -> Result<u32, RenderError> {
-        Ok(gpu.read::<Tile>(&self.tiles)?.iter().map(|tile| tile.balls).sum())
+    /// The tiles on the adapter, an element each.
+    pub(crate) fn tiles(&self) -> &wgpu::Buffer {
+        &self.tiles
     }
 }

@@ -44,6 +44,11 @@ fn clearance_of(hit: Hit) -> f32 {
     return bitcast<f32>(hit.status & ~511u);
 }
 
+// Whether the frame has the pixel's answer.
+fn is_answered(pixel: u32) -> bool {
+    return hits[pixel].status != NOTHING;
+}
+
 fn write_nothing(pixel: u32) {
     hits[pixel] = Hit(vec2<f32>(), 0.0, NOTHING);
 }

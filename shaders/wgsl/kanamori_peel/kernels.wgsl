@@ -50,6 +50,9 @@ fn kernel_sphere(corner: Corner) -> @builtin(frag_depth) f32 {
 
 @fragment
 fn mark_seen(corner: Corner) {
+    if seen[corner.ball] == 1u {
+        return;
+    }
     let position = vec2<u32>(corner.position.xy);
     let ray = rays[pixel_at(position)];
     let support = support_of(corner.ball);

@@ -1,6 +1,7 @@
 // One layer of depth peeling (section 4.1): of all supports, the nearest point beyond the last one
 // at which the ray enters or leaves.
 
+#import core::hit::is_answered
 #import core::view::{pixel_at, rays, view}
 #import kanamori_peel::arranged::{placed, registered, tiles}
 #import kanamori_peel::chord::chord_of
@@ -20,6 +21,8 @@ struct Corner {
     @location(1) @interpolate(flat) radius: f32,
     @location(2) @interpolate(flat) ball: u32,
     @location(3) @interpolate(flat) around: u32,
+    // Of the layer, from 1.
+    @location(4) @interpolate(flat) layer: u32,
 }
 
 struct Point {
@@ -31,12 +34,13 @@ struct Point {
 // The tile's number is in the first vertex, see kanamori_peel::turn.
 @vertex
 fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index: u32) -> Corner {
-    let ball = registered[tiles[vertex / VERTICES].first + index];
+    let tile = tiles[vertex / VERTICES];
+    let ball = registered[tile.first + index];
     let support = support_of(ball);
     let to_center = support.center - view.eye;
     let here = placed[ball];
     let position = outline(vertex % VERTICES, here, to_center, support.radius);
-    return Corner(position, to_center, support.radius, ball, here.around);
+    return Corner(position, to_center, support.radius, ball, here.around, tile.layers);
 }
 
 // Section 5.1: only the nearer of the two faces beyond the last point. A ball that the ray only
@@ -45,8 +49,15 @@ fn bound_ball(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index
 @fragment
 fn next_point(corner: Corner) -> Point {
     let position = vec2<u32>(corner.position.xy);
-    let last = textureLoad(lists, position, 0, 0).x;
-    let ray = rays[pixel_at(position)];
+    let pixel = pixel_at(position);
+    if is_answered(pixel) {
+        return no_point();
+    }
+    var last = 0.0;
+    if corner.layer > 1u {
+        last = textureLoad(lists, position, 0, 0).x;
+    }
+    let ray = rays[pixel];
     let chord = chord_of(corner.to_center, corner.radius, ray.direction);
     let half = sqrt(max(chord.half_squared, 0.0));
     // Which side of a support the eye is on is decided once for all rays; rounding must not undo it.
@@ -56,7 +67,12 @@ fn next_point(corner: Corner) -> Point {
     let t = select(leave, enter, !is_around && enter > last);
     let has_chord = is_around || chord.half_squared > 0.0 && enter < leave;
     if !has_chord || t <= last {
-        discard;
+        return no_point();
     }
     return Point(vec2(t, f32(corner.ball)), to_depth(t));
+}
+
+fn no_point() -> Point {
+    discard;
+    return Point();
 }

@@ -54,7 +54,7 @@ fn assign(@builtin(local_invocation_index) tile: u32) {
         total += sizes[other];
     }
     let all_fit = total <= arrayLength(&registered);
-    tiles[tile] = Tile(first, select(0u, size, all_fit), 0u);
+    tiles[tile] = Tile(first, select(0u, size, all_fit), 0u, 0u);
     if tile == 0u && !all_fit {
         report_needed(0u, total);
         report_unfinished();

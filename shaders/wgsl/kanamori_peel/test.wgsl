@@ -1,5 +1,5 @@
-// Passes over the picture: the lists that rays begin with, the isosurface test of a layer's interval
-// with the update of the lists (sections 4.2 and 4.3), and the count of rays without an answer.
+// Passes over the picture: the isosurface test of a layer's interval with the update of the lists
+// (sections 4.2 and 4.3), and the count of rays without an answer.
 
 #import core::hit
 #import core::status::report_unfinished
@@ -7,7 +7,7 @@
 #import kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
 #import kanamori_peel::frame::from_depth
 #import kanamori_peel::list
-#import kanamori_peel::tiles::{corner_of_tile, tile_of}
+#import kanamori_peel::tiles::corner_of_tile
 #import work::{count_layers, write_work}
 
 // Whether kernel spheres were drawn, see kanamori_peel::arrange.
@@ -18,14 +18,14 @@
 // Set for each tile that has a ray without an answer after this layer.
 @group(2) @binding(7) var<storage, read_write> rays_left: array<u32>;
 
-// The lists before this layer, the layer's points (t and ball; t = 0 where there is none), and the
-// nearest kernel spheres.
+// The lists before this layer, the points (t and ball) that this layer or the one before found, and the nearest
+// kernel spheres.
 @group(3) @binding(0) var lists: texture_2d_array<f32>;
 @group(3) @binding(1) var points: texture_2d<f32>;
 @group(3) @binding(2) var kernel_depth: texture_depth_2d;
 
-// A list as the targets keep it, in order: t of the last point, the number of balls, the balls. t is
-// NO_LIMIT once the ray has its answer. What a pipeline has no target for goes nowhere.
+// A list as the targets keep it, in order: t of the last point, the number of balls, the balls. What a
+// pipeline has no target for goes nowhere.
 struct Lists {
     @location(0) first: vec4<f32>,
     @location(1) second: vec4<f32>,
@@ -37,55 +37,49 @@ struct Lists {
     @location(7) eighth: vec4<f32>,
 }
 
-@vertex
-fn cover_picture(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4<f32> {
-    let corner = vec2(f32(vertex & 1u), f32(vertex >> 1u));
-    return vec4(2.0 * corner - 1.0, 0.5, 1.0);
+struct Corner {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) tile: u32,
 }
 
+// The far end is what the next layer's points are nearer than.
 @vertex
 fn cover_tile(
     @builtin(vertex_index) vertex: u32,
     @builtin(instance_index) tile: u32,
-) -> @builtin(position) vec4<f32> {
+) -> Corner {
     if tiles[tile].is_live == 0u {
-        return vec4(0.0, 0.0, 0.5, 1.0);
+        return Corner(vec4(0.0, 0.0, 0.5, 1.0), tile);
     }
-    return corner_of_tile(tile, vertex);
+    return Corner(corner_of_tile(tile, vertex), tile);
 }
 
-// The paper's eye is outside all supports. Here a ray begins with the balls around the eye.
 @fragment
-fn begin(@builtin(position) at: vec4<f32>) -> Lists {
-    let position = vec2<u32>(at.xy);
+fn test_layer(corner: Corner) -> Lists {
+    let position = vec2<u32>(corner.position.xy);
     let pixel = pixel_at(position);
-    list::listed_count = min(arranged.around, capacity);
-    for (var k = 0u; k < list::listed_count; k++) {
-        list::listed[k] = arranged.around_balls[k];
+    if hit::is_answered(pixel) {
+        return nothing();
     }
+    let ray = rays[pixel];
     if arranged.around > capacity {
-        list::write_support(pixel, rays[pixel], 0.0, list::listed[0]);
-        return stored(NO_LIMIT);
+        list::write_support(pixel, ray, 0.0, arranged.around_balls[0]);
+        return nothing();
     }
-    rays_left[tile_of(position)] = 1u;
-    return stored(0.0);
-}
-
-@fragment
-fn test_layer(@builtin(position) at: vec4<f32>) -> Lists {
-    let position = vec2<u32>(at.xy);
-    let last = restore(position);
-    if last == NO_LIMIT {
-        return stored(NO_LIMIT);
+    var last = 0.0;
+    if tiles[corner.tile].layers == 1u {
+        begin();
+    } else {
+        last = restore(position);
     }
     count_layers(1u);
-    let pixel = pixel_at(position);
     let point = textureLoad(points, position, 0).xy;
-    let next = test_interval(position, pixel, rays[pixel], last, point);
+    let next = test_interval(position, pixel, ray, last, point);
     write_work(pixel);
-    if next != NO_LIMIT {
-        rays_left[tile_of(position)] = 1u;
+    if next == NO_LIMIT {
+        return nothing();
     }
+    rays_left[corner.tile] = 1u;
     return stored(next);
 }
 
@@ -99,7 +93,8 @@ fn test_interval(
     point: vec2<f32>,
 ) -> f32 {
     let kernel = from_depth(textureLoad(kernel_depth, position, 0));
-    let next = select(NO_LIMIT, point.x, point.x > 0.0);
+    // A point that this layer did not find is that of the layer before.
+    let next = select(NO_LIMIT, point.x, point.x > last);
     let end = max(min(min(next, kernel), ray.t_max), last);
     // In the single case the kernel spheres that were drawn are the surface (section 5.2).
     var t = list::NOTHING_FOUND;
@@ -133,8 +128,16 @@ fn test_interval(
 // Rays that no layer answered.
 @compute @workgroup_size(8, 8)
 fn account(@builtin(global_invocation_id) id: vec3<u32>) {
-    if in_picture(id.xy) && hit::hits[pixel_at(id.xy)].status == hit::NOTHING {
+    if in_picture(id.xy) && !hit::is_answered(pixel_at(id.xy)) {
         report_unfinished();
+    }
+}
+
+// The paper's eye is outside all supports. Here a ray begins with the balls around the eye.
+fn begin() {
+    list::listed_count = arranged.around;
+    for (var k = 0u; k < list::listed_count; k++) {
+        list::listed[k] = arranged.around_balls[k];
     }
 }
 
@@ -142,12 +145,21 @@ fn account(@builtin(global_invocation_id) id: vec3<u32>) {
 fn restore(position: vec2<u32>) -> f32 {
     let head = textureLoad(lists, position, 0, 0);
     list::listed_count = u32(head.y);
-    for (var k = 0u; k < list::listed_count; k++) {
-        let channel = k + 2u;
-        let part = textureLoad(lists, position, channel / 4u, 0);
-        list::listed[k] = u32(part[channel % 4u]);
+    list::listed[0] = u32(head.z);
+    list::listed[1] = u32(head.w);
+    for (var k = 2u; k < list::listed_count; k += 4u) {
+        let four = textureLoad(lists, position, (k + 2u) / 4u, 0);
+        for (var i = 0u; i < 4u; i++) {
+            list::listed[k + i] = u32(four[i]);
+        }
     }
     return head.x;
+}
+
+// What the targets have stays.
+fn nothing() -> Lists {
+    discard;
+    return Lists();
 }
 
 // The list as it is now, after a point with this t.

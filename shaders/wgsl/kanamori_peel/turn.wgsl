@@ -1,5 +1,5 @@
-// Between two layers: what the next one draws. A tile without a ray that lacks an answer draws nothing,
-// so that what is recorded beyond the last layer costs little, and nothing is read back.
+// Before a layer: what it draws. A tile without a ray that lacks an answer draws nothing, so that what is
+// recorded beyond its last layer costs little.
 
 #import kanamori_peel::outline::VERTICES
 #import kanamori_peel::tiles::{MOST_TILES, Tile}
@@ -20,9 +20,11 @@ struct Draw {
 
 @compute @workgroup_size(256)
 fn turn(@builtin(local_invocation_index) tile: u32) {
-    let is_live = rays_left[tile];
+    // Before the first layer no ray has an answer.
+    let is_live = tiles[tile].layers == 0u || rays_left[tile] != 0u;
     rays_left[tile] = 0u;
-    tiles[tile].is_live = is_live;
-    let balls = select(0u, tiles[tile].balls, is_live != 0u);
+    tiles[tile].is_live = select(0u, 1u, is_live);
+    tiles[tile].layers += select(0u, 1u, is_live);
+    let balls = select(0u, tiles[tile].balls, is_live);
     draws[tile] = Draw(VERTICES, balls, tile * VERTICES, 0u);
 }

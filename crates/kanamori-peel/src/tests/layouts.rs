@@ -46,7 +46,7 @@ fn arranged_balls() {
 
 #[test]
 fn tiles() {
-    let host = host_layout!(Tile { first, balls, is_live });
+    let host = host_layout!(Tile { first, balls, is_live, layers });
     for module in ["register", "turn", "peel", "test"] {
         assert_eq!(twin(&format!("kanamori_peel/{module}"), "Tile"), host, "{module}");
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 use metaball_core::gpu::{Gpu, IsoRenderer, RenderError, Targets, render};
-use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, View, Work};
+use metaball_core::{Camera, Hit, Kernel, Metaball, Scene, Verdict, View, Work};
 
 use super::random::Random;
 use crate::{Clipping, Options, Outline, Registration, Renderer};
@@ -138,6 +138,38 @@ fn registrations_beyond_the_capacity_are_drawn_with_more() {
         let registered = picture.facts["registrations"] as u32;
         assert!(before < registered && registered <= after, "{before}, {registered}, {after}");
         assert!(picture.hits == one_tile.hits, "{registration:?}");
+    }
+}
+
+/// A row of apart balls without a surface, one behind the other: two points each, and a layer without one.
+/// A frame that runs out of layers is drawn again with more; the next has a quarter more than it took,
+/// be that more or less than before.
+#[test]
+fn layers_follow_the_scene() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for registration in [Registration::Host, Registration::Adapter] {
+        let options = Options { registration, ..Options::default() };
+        let mut renderer = Renderer::new("kanamori", options, true);
+        for count in [100, 0, 1, 50] {
+            let balls: Vec<_> = (0..count)
+                .map(|index| Metaball {
+                    center: Vec3::new(0.0, 0.0, -0.3 * index as f32),
+                    radius: 0.1,
+                    strength: 0.01,
+                })
+                .collect();
+            let row = Scene::new(balls, Kernel::Wyvill, 0.9).expect("legal");
+            renderer.build(&gpu, &row).expect("builds");
+            let needed = 2 * count + 1;
+            for _ in 0..2 {
+                let picture = draw_from(&gpu, &mut renderer, 1.0, (49, 33));
+                assert!(picture.hits.iter().all(|hit| hit.verdict == Verdict::Miss));
+                let deepest = picture.work.iter().map(|work| work.layers).max();
+                assert_eq!(deepest, Some(needed));
+                assert_eq!(picture.facts["layers"], f64::from(needed));
+            }
+            assert_eq!(renderer.layer_limit(), needed + needed.div_ceil(4));
+        }
     }
 }
 

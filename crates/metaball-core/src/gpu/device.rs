@@ -202,7 +202,10 @@ impl Gpu {
     }
 
     /// Maps a buffer, passes its bytes to `read`, and unmaps it.
-    pub(super) fn read_mapped<T>(
+    ///
+    /// # Errors
+    /// When the buffer cannot be mapped, or the device fails.
+    pub fn read_mapped<T>(
         &self,
         buffer: &wgpu::Buffer,
         read: impl FnOnce(&[u8]) -> T,
