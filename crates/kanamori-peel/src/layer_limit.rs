@@ -74,11 +74,12 @@ impl LayerLimit {
         self.is_due = false;
     }
 
-    /// Doubles it for the next frame. False where it is the greatest already.
+    /// Doubles it for the next frame, to no less than a first one has. False where it is the greatest
+    /// already.
     pub(crate) fn grow(&mut self) -> bool {
         self.keep();
         let can_grow = self.layers < MOST_LAYERS;
-        self.layers = self.layers.saturating_mul(2).min(MOST_LAYERS);
+        self.layers = self.layers.saturating_mul(2).clamp(FIRST_LAYERS, MOST_LAYERS);
         can_grow
     }
 }

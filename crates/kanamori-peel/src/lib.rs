@@ -21,7 +21,7 @@
 //! | `turn` | per layer: tiles without an unanswered ray draw nothing any more | 5.3 |
 //! | `peel` | per layer: the nearest point behind the last one, tile by tile in one pass | 4.1, 5.1 |
 //! | `test` | per layer: search of the interval, and the list toggled | 4.2, 4.3, 5.4 |
-//! | `account` | count of the rays without an answer | |
+//! | `account` | misses of tiles without balls; count of the rays without an answer | |
 //!
 //! # Changes versus the paper
 //! *Coefficients* of appendix A hold with a = Q²/R², Q half the chord; the text has D/R. Every power

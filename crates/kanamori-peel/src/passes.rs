@@ -112,12 +112,12 @@ impl Passes<'_> {
         });
     }
 
-    /// The count of rays that no layer answered.
+    /// Rays that no layer answered.
     pub(crate) fn account(&self, frame: &mut Frame<'_>) {
         let targets = frame.targets();
         let (columns, rows) = targets.workgroups();
         frame.compute("account", |pass| {
-            pass.set_bind_group(0, targets.bind_group(), &[]);
+            self.bind_compute(pass, targets, &self.tiles.drawing);
             pass.set_pipeline(&self.pipelines.account);
             pass.dispatch_workgroups(columns, rows, 1);
         });

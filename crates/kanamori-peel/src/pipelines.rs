@@ -208,7 +208,7 @@ impl Pipelines {
                     depth: Some(SET_BACK),
                 },
             )?,
-            account: test.compute(gpu, "account", "account", &spec, &[frame], &searching)?,
+            account: test.compute(gpu, "account", "account", &spec, &bottom, &searching)?,
             layouts,
         })
     }

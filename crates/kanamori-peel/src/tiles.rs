@@ -28,9 +28,9 @@ pub(crate) struct Tile {
 const DRAW_BYTES: u64 = 16;
 
 /// The most layers that a tile with so many balls takes: each ball has two points on a ray, and the
-/// last layer finds none.
+/// last layer finds none. Without balls there is none.
 pub(crate) const fn most_layers(balls: u32) -> u32 {
-    2 * balls + 1
+    if balls == 0 { 0 } else { 2 * balls + 1 }
 }
 
 /// Elements of buffers with one a tile.

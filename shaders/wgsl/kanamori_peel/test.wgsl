@@ -1,5 +1,5 @@
 // Passes over the picture: the isosurface test of a layer's interval with the update of the lists
-// (sections 4.2 and 4.3), and the count of rays without an answer.
+// (sections 4.2 and 4.3), and what becomes of rays that no layer answered.
 
 #import core::hit
 #import core::status::report_unfinished
@@ -7,7 +7,7 @@
 #import kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
 #import kanamori_peel::frame::from_depth
 #import kanamori_peel::list
-#import kanamori_peel::tiles::corner_of_tile
+#import kanamori_peel::tiles::{corner_of_tile, tile_of}
 #import work::{count_layers, write_work}
 
 // Whether kernel spheres were drawn, see kanamori_peel::arrange.
@@ -125,10 +125,16 @@ fn test_interval(
     return next;
 }
 
-// Rays that no layer answered.
+// Rays that no layer answered: those of tiles without balls miss, and others are left.
 @compute @workgroup_size(8, 8)
 fn account(@builtin(global_invocation_id) id: vec3<u32>) {
-    if in_picture(id.xy) && !hit::is_answered(pixel_at(id.xy)) {
+    if !in_picture(id.xy) {
+        return;
+    }
+    let pixel = pixel_at(id.xy);
+    if tiles[tile_of(id.xy)].balls == 0u {
+        hit::write_miss(pixel);
+    } else if !hit::is_answered(pixel) {
         report_unfinished();
     }
 }

@@ -37,6 +37,11 @@ fn tiles_of(ball: Placed) -> TileRange {
     return tiles_under(Cover(ball.low, ball.high), tile_size(), vec2(tiles_on_side));
 }
 
+fn tile_of(position: vec2<u32>) -> u32 {
+    let tile = position / tile_size();
+    return tile_at(tile.x, tile.y);
+}
+
 // A corner of the strip of two triangles that is the tile, counted from 0, in clip space, at the far end.
 fn corner_of_tile(tile: u32, vertex: u32) -> vec4<f32> {
     let first = vec2(tile % tiles_on_side, tile / tiles_on_side);

@@ -1,5 +1,5 @@
-// Before a layer: what it draws. A tile without a ray that lacks an answer draws nothing, so that what is
-// recorded beyond its last layer costs little.
+// Before a layer: what it draws. A tile without balls, or without a ray that lacks an answer, draws nothing,
+// so that what is recorded beyond its last layer costs little.
 
 #import kanamori_peel::outline::VERTICES
 #import kanamori_peel::tiles::{MOST_TILES, Tile}
@@ -21,7 +21,7 @@ struct Draw {
 @compute @workgroup_size(256)
 fn turn(@builtin(local_invocation_index) tile: u32) {
     // Before the first layer no ray has an answer.
-    let is_live = tiles[tile].layers == 0u || rays_left[tile] != 0u;
+    let is_live = select(rays_left[tile] != 0u, tiles[tile].balls > 0u, tiles[tile].layers == 0u);
     rays_left[tile] = 0u;
     tiles[tile].is_live = select(0u, 1u, is_live);
     tiles[tile].layers += select(0u, 1u, is_live);
