@@ -6,7 +6,7 @@ use crate::balls::Balls;
 use crate::layers::Layers;
 use crate::options::Options;
 use crate::pipelines::Pipelines;
-use crate::tiles::{Grid, TileBuffers};
+use crate::tiles::{PeeledTile, TileBuffers};
 
 /// What the passes of a frame work with.
 pub(crate) struct Passes<'a> {
@@ -82,7 +82,7 @@ impl Passes<'_> {
     }
 
     /// The layer's points, tile by tile in one pass.
-    pub(crate) fn peel(&self, frame: &mut Frame<'_>, layer: u32, grid: &Grid) {
+    pub(crate) fn peel(&self, frame: &mut Frame<'_>, layer: u32, tiles: &[PeeledTile]) {
         let targets = frame.targets();
         let attachments = RenderAttachments {
             colors: &[self.layers.points(layer)],
@@ -92,9 +92,10 @@ impl Passes<'_> {
             self.bind(pass, targets);
             pass.set_bind_group(3, self.layers.peeling(layer), &[]);
             pass.set_pipeline(&self.pipelines.peel);
-            for (draw, [x, y, width, height]) in grid.scissors() {
+            for tile in tiles.iter().filter(|tile| layer < tile.most_layers) {
+                let [x, y, width, height] = tile.scissor;
                 pass.set_scissor_rect(x, y, width, height);
-                pass.draw_indirect(&self.tiles.draws, draw);
+                pass.draw_indirect(&self.tiles.draws, tile.draw);
             }
         });
     }

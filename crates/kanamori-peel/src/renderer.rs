@@ -15,7 +15,7 @@ use crate::options::{Options, Registration};
 use crate::passes::Passes;
 use crate::pipelines::Pipelines;
 use crate::registration::register;
-use crate::tiles::{Grid, Tile, TileBuffers, most_layers};
+use crate::tiles::{ALL_TILES, Grid, Tile, TileBuffers};
 
 /// Registrations for each ball that a scene's buffers begin with.
 const FIRST_REGISTRATIONS: u32 = 4;
@@ -127,7 +127,7 @@ impl IsoRenderer for Renderer {
             _ => Layers::new(gpu, size, self.options.targets(), &pipelines.layouts)?,
         };
         let grid = Grid::new(self.options.tiles, [view.width(), view.height()]);
-        let mut most_balls = balls.count;
+        let mut most_balls = vec![balls.count; ALL_TILES as usize];
         if self.options.registration == Registration::Host {
             let (of_tiles, registered) =
                 frame.cpu("register", || register(&self.supports, view, &grid));
@@ -137,8 +137,10 @@ impl IsoRenderer for Renderer {
                     TileBuffers::new(gpu, balls, &pipelines.layouts, Registration::Host, capacity)?;
             }
             tiles.fill(gpu, &of_tiles, &registered)?;
-            most_balls = of_tiles.iter().map(|tile| tile.balls).max().unwrap_or(0);
+            most_balls = of_tiles.iter().map(|tile| tile.balls).collect();
         }
+        let peeled = grid.peeled(&most_balls);
+        let most_layers = peeled.iter().map(|tile| tile.most_layers).max().unwrap_or(0);
 
         let passes = Passes { pipelines, balls, tiles, layers: &layers, options: &self.options };
         balls.begin(gpu, view, frame.encoder())?;
@@ -146,9 +148,9 @@ impl IsoRenderer for Renderer {
         if self.options.registration == Registration::Adapter {
             passes.register(frame);
         }
-        for layer in 0..self.layer_limit.next(gpu, most_layers(most_balls))? {
+        for layer in 0..self.layer_limit.next(gpu, most_layers)? {
             passes.turn(frame);
-            passes.peel(frame, layer, &grid);
+            passes.peel(frame, layer, &peeled);
             passes.test(frame, layer);
         }
         passes.account(frame);

@@ -36,6 +36,17 @@ pub(crate) const fn most_layers(balls: u32) -> u32 {
 /// Elements of buffers with one a tile.
 pub(crate) const ALL_TILES: u64 = MOST_TILES as u64 * MOST_TILES as u64;
 
+/// A tile as peeling draws it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PeeledTile {
+    /// Offset of its indirect draw, bytes.
+    pub(crate) draw: u64,
+    /// First column, first row, columns and rows, pixels.
+    pub(crate) scissor: [u32; 4],
+    /// It takes no more layers.
+    pub(crate) most_layers: u32,
+}
+
 /// The tiles of a picture, row by row from the top left.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Grid {
@@ -52,20 +63,22 @@ impl Grid {
         Self { on_side, picture, tile: picture.map(|side| side.div_ceil(on_side)) }
     }
 
-    /// The tiles that have pixels: the offset of each among indirect draws, in bytes; then its first
-    /// column, first row, columns and rows, in pixels.
-    pub(crate) fn scissors(&self) -> impl Iterator<Item = (u64, [u32; 4])> {
+    /// The tiles that have pixels, where each of all tiles has at most so many balls.
+    pub(crate) fn peeled(&self, most_balls: &[u32]) -> Vec<PeeledTile> {
         let Self { on_side, picture, tile } = *self;
         let columns = picture[0].div_ceil(tile[0]);
         let rows = picture[1].div_ceil(tile[1]);
-        (0..rows).flat_map(move |row| {
-            (0..columns).map(move |column| {
-                let first = [column * tile[0], row * tile[1]];
-                let size = [0, 1].map(|axis| tile[axis].min(picture[axis] - first[axis]));
-                let draw = DRAW_BYTES * u64::from(row * on_side + column);
-                (draw, [first[0], first[1], size[0], size[1]])
-            })
-        })
+        let peeled = |row, column| {
+            let first = [column * tile[0], row * tile[1]];
+            let size = [0, 1].map(|axis| tile[axis].min(picture[axis] - first[axis]));
+            let index = row * on_side + column;
+            PeeledTile {
+                draw: DRAW_BYTES * u64::from(index),
+                scissor: [first[0], first[1], size[0], size[1]],
+                most_layers: most_layers(most_balls[index as usize]),
+            }
+        };
+        (0..rows).flat_map(|row| (0..columns).map(move |column| peeled(row, column))).collect()
     }
 
     /// Columns and rows of tiles that a rectangle in clip space meets.
