@@ -244,6 +244,13 @@ pub const INTERFACES: &[Interface] = &[
         ",
     },
     Interface {
+        folder: "kanamori_peel/longest",
+        purpose: "The longest list of active balls that the targets of a ray hold (section 4.2).",
+        declarations: "
+            const LONGEST: u32
+        ",
+    },
+    Interface {
         folder: "kanamori_peel/clipping",
         purpose: "The root of a curve by Bézier clipping.",
         declarations: "

@@ -177,6 +177,8 @@ pub const MODULES: &[Module] = &[
     import!("kanamori_peel/clipping/short_stack"),
     import!("kanamori_peel/clipping/iterative"),
     import!("kanamori_peel/clipping/original"),
+    import!("kanamori_peel/longest/four_targets"),
+    import!("kanamori_peel/longest/eight_targets"),
     import!("kanamori_peel/list"),
     entry!("kanamori_peel/arrange"),
     entry!("kanamori_peel/register"),

@@ -111,14 +111,15 @@ fn every_entry_composes_and_validates_under_every_variant() {
 }
 
 /// The test of a layer depends on all fields of a variant, 14 of them, on one of three Bernstein
-/// forms and on one of three ways of clipping; what tiles draw on two outlines, and on nothing else.
+/// forms, on one of three ways of clipping and on one of two lengths of lists; what tiles draw on two
+/// outlines, and on nothing else.
 #[test]
 fn variants_are_those_that_differ() {
     let count = |name: &str| {
         let module = MODULES.iter().find(|module| module.name == name).expect("in the table");
         variants(module).len()
     };
-    assert_eq!(count("kanamori_peel/test"), 14 * (1 + 2 + 2));
+    assert_eq!(count("kanamori_peel/test"), 14 * (1 + 2 + 2 + 1));
     assert_eq!(count("kanamori_peel/turn"), 1 + 1);
 }
 
@@ -141,7 +142,11 @@ fn variants_bind_what_they_need() {
         strengths: false,
         colors: false,
         counting: false,
-        chosen: &["kanamori_peel/bernstein/quartic", "kanamori_peel/clipping/short_stack"],
+        chosen: &[
+            "kanamori_peel/bernstein/quartic",
+            "kanamori_peel/clipping/short_stack",
+            "kanamori_peel/longest/four_targets",
+        ],
     };
     let least_bindings = bindings("kanamori_peel/test", &least);
     let more = |variant: Variant| {

@@ -36,7 +36,8 @@ pub enum Registration {
 }
 
 /// K as published: the balls that a ray's list holds (section 4.2). Four targets of four f32, less the
-/// t of the last point and the number of balls.
+/// t of the last point and the number of balls. `LONGEST` of
+/// `shaders/wgsl/kanamori_peel/longest/four_targets.wgsl`.
 pub const LIST_CAPACITY: u32 = 14;
 
 /// The most that [`Options::list_capacity`] can be: eight targets, less two numbers. `MOST_ACTIVE` of

@@ -27,23 +27,28 @@ pub(crate) struct Pipelines {
     pub(crate) account: wgpu::ComputePipeline,
 }
 
-/// What the search of an interval depends on: the modules with the kernel's Bernstein form and with
-/// the way of clipping. `None` for a kernel that is no polynomial along a ray. Where shaders are not
+/// What the search of an interval depends on: the modules with the kernel's Bernstein form, with the
+/// way of clipping and with the length of the lists. `None` for a kernel that is no polynomial along a ray. Where shaders are not
 /// compiled for the kernel, the quartic has the form of all power kernels.
 pub(crate) fn search_modules(
     kernel: Kernel,
     form: KernelForm,
-    clipping: Clipping,
+    options: &Options,
 ) -> Option<&'static [&'static str]> {
     const SHORT_STACK: &str = "kanamori_peel/clipping/short_stack";
     const ITERATIVE: &str = "kanamori_peel/clipping/iterative";
     const ORIGINAL: &str = "kanamori_peel/clipping/original";
+    const FOUR: &str = "kanamori_peel/longest/four_targets";
+    const EIGHT: &str = "kanamori_peel/longest/eight_targets";
     macro_rules! with {
         ($form:literal) => {
-            match clipping {
-                Clipping::ShortStack => &[$form, SHORT_STACK],
-                Clipping::Iterative => &[$form, ITERATIVE],
-                Clipping::Original => &[$form, ORIGINAL],
+            match (options.clipping, options.targets() <= 4) {
+                (Clipping::ShortStack, true) => &[$form, SHORT_STACK, FOUR],
+                (Clipping::ShortStack, false) => &[$form, SHORT_STACK, EIGHT],
+                (Clipping::Iterative, true) => &[$form, ITERATIVE, FOUR],
+                (Clipping::Iterative, false) => &[$form, ITERATIVE, EIGHT],
+                (Clipping::Original, true) => &[$form, ORIGINAL, FOUR],
+                (Clipping::Original, false) => &[$form, ORIGINAL, EIGHT],
             }
         };
     }
@@ -106,7 +111,7 @@ impl Pipelines {
         options: &Options,
     ) -> Result<Self, RenderError> {
         let Specialization { kernel, kernel_form, .. } = specialization;
-        let Some(search) = search_modules(kernel, kernel_form, options.clipping) else {
+        let Some(search) = search_modules(kernel, kernel_form, options) else {
             return Err(RenderError::Unsupported {
                 method,
                 reason: format!(

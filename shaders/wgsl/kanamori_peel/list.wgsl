@@ -5,11 +5,12 @@
 #import core::hit
 #import core::scene::scene
 #import core::view::{view, PrimaryRay}
-#import kanamori_peel::arranged::{kernel_radii, MOST_ACTIVE}
+#import kanamori_peel::arranged::kernel_radii
 #import kanamori_peel::bernstein::{along_chord, Curve, degree}
 #import kanamori_peel::bezier::{LOST, NO_ROOT, part}
 #import kanamori_peel::chord::chord_of
 #import kanamori_peel::clipping::first_root
+#import kanamori_peel::longest::LONGEST
 #import strength::strength
 #import support::support_of
 #import work::{count_balls, count_leaf_test, count_search_end}
@@ -18,7 +19,7 @@
 const NOTHING_FOUND: f32 = -1.0;
 const SEARCH_LOST: f32 = -2.0;
 
-var<private> listed: array<u32, MOST_ACTIVE>;
+var<private> listed: array<u32, LONGEST>;
 var<private> listed_count: u32;
 
 // Removes a ball that is on the list, and adds one that is not. False where the list is full.

@@ -4,7 +4,7 @@
 #import core::hit
 #import core::status::report_unfinished
 #import core::view::{in_picture, pixel_at, rays, PrimaryRay, NO_LIMIT}
-#import kanamori_peel::arranged::{arranged, MOST_ACTIVE, tiles}
+#import kanamori_peel::arranged::{arranged, tiles}
 #import kanamori_peel::frame::from_depth
 #import kanamori_peel::list
 #import kanamori_peel::tiles::{corner_of_tile, tile_of}

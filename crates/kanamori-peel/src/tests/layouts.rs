@@ -16,6 +16,7 @@ fn twin(module: &str, name: &str) -> StructLayout {
         chosen: &[
             "kanamori_peel/bernstein/wyvill",
             "kanamori_peel/clipping/short_stack",
+            "kanamori_peel/longest/four_targets",
             "kanamori_peel/outline/rectangle",
         ],
     };

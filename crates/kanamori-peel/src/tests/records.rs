@@ -5,8 +5,8 @@ use metaball_core::gpu::{
     Binding, Gpu, Shader, ShaderModule, Specialization, bind_group, bind_group_layout,
 };
 
-use crate::Clipping;
 use crate::pipelines::search_modules;
+use crate::{Clipping, Options};
 
 /// A curve's coefficients, up to degree 16, or numbers that a curve follows from.
 pub(super) type Record = [f32; 20];
@@ -45,8 +45,9 @@ pub(super) fn evaluate(
     inputs: &[Record],
 ) -> Vec<Record> {
     let spec = Specialization { kernel, ..Specialization::without_balls() };
-    let spec =
-        spec.choosing(search_modules(kernel, spec.kernel_form, clipping).expect("has a form"));
+    let options = Options { clipping, ..Options::default() };
+    let search = search_modules(kernel, spec.kernel_form, &options).expect("has a form");
+    let spec = spec.choosing(search);
     let module = ShaderModule { name: "test", source, is_entry: true };
     let shader = Shader::of_module(gpu, &module, &spec).expect("composes");
     let layout = bind_group_layout(gpu, "records", &[(0, Binding::Read), (1, Binding::Write)]);

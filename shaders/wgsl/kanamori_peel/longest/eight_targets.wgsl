@@ -1,0 +1,3 @@
+// Eight targets.
+
+const LONGEST: u32 = 30u;

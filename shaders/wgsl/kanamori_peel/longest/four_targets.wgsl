@@ -1,0 +1,3 @@
+// Four targets, as published.
+
+const LONGEST: u32 = 14u;
