@@ -18,8 +18,8 @@
 // Set for each tile that has a ray without an answer after this layer.
 @group(2) @binding(7) var<storage, read_write> rays_left: array<u32>;
 
-// The lists before this layer, the points (t and ball) that this layer or the one before found, and the nearest
-// kernel spheres.
+// The lists before this layer; t and ball of the points that this layer found, or else the last one; and
+// the nearest kernel spheres.
 @group(3) @binding(0) var lists: texture_2d_array<f32>;
 @group(3) @binding(1) var points: texture_2d<f32>;
 @group(3) @binding(2) var kernel_depth: texture_depth_2d;
@@ -44,10 +44,7 @@ struct Corner {
 
 // The far end is what the next layer's points are nearer than.
 @vertex
-fn cover_tile(
-    @builtin(vertex_index) vertex: u32,
-    @builtin(instance_index) tile: u32,
-) -> Corner {
+fn cover_tile(@builtin(vertex_index) vertex: u32, @builtin(instance_index) tile: u32) -> Corner {
     if tiles[tile].is_live == 0u {
         return Corner(vec4(0.0, 0.0, 0.5, 1.0), tile);
     }

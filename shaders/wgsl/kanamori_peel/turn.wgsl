@@ -1,5 +1,5 @@
-// Before a layer: what it draws. A tile without balls, or without a ray that lacks an answer, draws nothing,
-// so that what is recorded beyond its last layer costs little.
+// Before a layer: what it draws. A tile without balls, or without a ray that lacks an answer, draws
+// nothing, so that what is recorded beyond its last layer costs little.
 
 #import kanamori_peel::outline::VERTICES
 #import kanamori_peel::tiles::{MOST_TILES, Tile}
