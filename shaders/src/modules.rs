@@ -59,6 +59,7 @@ pub const MODULES: &[Module] = &[
     import!("core/ray"),
     import!("core/make_ray"),
     entry!("core/rays"),
+    import!("core/ray_list"),
     import!("core/hit"),
     import!("core/status"),
     import!("core/scene"),
@@ -91,7 +92,6 @@ pub const MODULES: &[Module] = &[
     // Arbitrary rays.
     import!("batch/free_ray"),
     import!("batch/queried"),
-    import!("batch/list"),
     entry!("batch/list_rays"),
     import!("ray/primary"),
     import!("ray/free"),

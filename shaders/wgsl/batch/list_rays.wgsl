@@ -1,18 +1,9 @@
 // Lists the rays of a batch that have a query, so that of the passes along the list every invocation has one:
 // the pass before those that answer.
 
-#import batch::list::ACROSS
 #import batch::queried::is_queried
+#import core::ray_list::{groups_along, Listing}
 #import core::view::{in_blocks, in_picture, pixel_at}
-
-// `Listed` while many write to it.
-struct Listing {
-    groups_x: atomic<u32>,
-    groups_y: atomic<u32>,
-    groups_z: atomic<u32>,
-    count: atomic<u32>,
-    pixels: array<u32>,
-}
 
 @group(0) @binding(2) var<storage, read_write> listing: Listing;
 
@@ -39,10 +30,10 @@ fn list_rays(
     if index == 0u {
         let listed = atomicLoad(&count);
         first = atomicAdd(&listing.count, listed);
-        let groups = (first + listed + 63u) / 64u;
-        atomicMax(&listing.groups_x, min(groups, ACROSS));
-        atomicMax(&listing.groups_y, (groups + ACROSS - 1u) / ACROSS);
-        atomicMax(&listing.groups_z, 1u);
+        let groups = groups_along(first + listed);
+        atomicMax(&listing.groups_x, groups.x);
+        atomicMax(&listing.groups_y, groups.y);
+        atomicMax(&listing.groups_z, groups.z);
     }
     workgroupBarrier();
     if is_listed {

@@ -2,8 +2,8 @@
 // followed backwards from the eye.
 
 #import batch::free_ray::FreeRay
-#import batch::list::Listed
 #import core::hit::Hit
+#import core::ray_list::Listed
 
 // Twin of `twins::Settings` in metaball-light.
 struct Settings {

@@ -1,7 +1,7 @@
 // Takes the answers to shadow and occlusion rays, and sends the next ones.
 
-#import batch::list::index_in_list
 #import core::hit::{MISS, UNDECIDED}
+#import core::ray_list::index_in_list
 #import light::path::{answered_shadow_rays, path_rays, paths, shadow_hits}
 #import light::scatter::continue_path
 

@@ -2,8 +2,8 @@
 // surface where they hit, or the floor where that is nearer.
 
 #import batch::free_ray::ANSWERED
-#import batch::list::index_in_list
 #import core::hit::{clearance_of, hits, unfold, HIT, INSIDE, MISS}
+#import core::ray_list::index_in_list
 #import core::view::NO_LIMIT
 #import light::environment::environment
 #import light::floor::{floor_along, floor_base, floor_clearance, horizon, presence, UP}

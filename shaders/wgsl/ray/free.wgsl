@@ -1,8 +1,8 @@
 // The rays of a batch that have the pass's query, along their list.
 
-#import batch::list::{index_in_list, Listed}
 #import batch::queried::{free_rays, is_any_hit}
 #import core::ray::{Ray, NO_PIXEL}
+#import core::ray_list::{index_in_list, Listed}
 
 @group(0) @binding(6) var<storage, read> listed: Listed;
 

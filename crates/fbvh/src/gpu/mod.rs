@@ -247,7 +247,7 @@ fn record(
         bind(pass);
         match rays {
             Rays::OfView => pass.dispatch_workgroups(across, down, 1),
-            Rays::Listed(batch) => pass.dispatch_workgroups_indirect(batch.list(), 0),
+            Rays::Listed(batch) => batch.list().dispatch(pass),
         }
     });
     built.suspended.count(frame.encoder());

@@ -1,8 +1,8 @@
 //! Free rays on the device, one a pixel, with their answers.
 
 use super::layout::bind_group;
-use super::ray_list::RayList;
-use super::{Frame, FreeRay, Gpu, RenderError, Specialization, Targets, free_ray_layout};
+use super::queried_rays::QueriedRays;
+use super::{Frame, FreeRay, Gpu, RayList, RenderError, Specialization, Targets, free_ray_layout};
 use crate::RayQuery;
 use crate::{Color, Hit, PackedHit};
 
@@ -14,7 +14,7 @@ pub struct RayBatch {
     rays: wgpu::Buffer,
     hits: wgpu::Buffer,
     colors: Option<wgpu::Buffer>,
-    list: RayList,
+    queried: QueriedRays,
     bind_group: wgpu::BindGroup,
 }
 
@@ -34,12 +34,12 @@ impl RayBatch {
             .then(|| one_a_pixel("colours at free rays", size_of::<Color>()))
             .transpose()?;
 
-        let list = RayList::new(gpu, pixels, &targets.view, &rays)?;
+        let queried = QueriedRays::new(gpu, pixels, &targets.view, &rays)?;
 
         let mut buffers = vec![(0, &targets.view), (1, &rays), (2, &hits), (3, &targets.status)];
         buffers.extend(colors.as_ref().map(|buffer| (4, buffer)));
         buffers.extend(targets.work().map(|buffer| (5, buffer)));
-        buffers.push((6, list.buffer()));
+        buffers.push((6, queried.list().buffer()));
         let spec = Specialization {
             colors: has_colors,
             counting: targets.work().is_some(),
@@ -47,7 +47,7 @@ impl RayBatch {
         };
         let layout = free_ray_layout(gpu, &spec);
         let bind_group = gpu.checked(|| bind_group(gpu, "free rays", &layout, &buffers))?;
-        Ok(Self { rays, hits, colors, list, bind_group })
+        Ok(Self { rays, hits, colors, queried, bind_group })
     }
 
     /// Group 0 of the passes that answer queries, laid out as [`free_ray_layout`].
@@ -66,13 +66,12 @@ impl RayBatch {
         query: RayQuery,
         label: &'static str,
     ) -> Result<(), RenderError> {
-        self.list.encode(frame, query, label)
+        self.queried.encode(frame, query, label)
     }
 
-    /// The last list: WGSL's `Listed` of `shaders/wgsl/batch/list.wgsl`. Its first twelve bytes are the
-    /// arguments of an indirect dispatch along it, 64 rays a workgroup.
-    pub fn list(&self) -> &wgpu::Buffer {
-        self.list.buffer()
+    /// The last list.
+    pub fn list(&self) -> &RayList {
+        self.queried.list()
     }
 
     /// One [`FreeRay`] a pixel, row by row from the top left, to be written by the caller.
@@ -94,7 +93,7 @@ impl RayBatch {
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
         let colors = self.colors.as_ref().map_or(0, wgpu::Buffer::size);
-        self.rays.size() + self.hits.size() + self.list.buffer().size() + colors
+        self.rays.size() + self.hits.size() + self.list().buffer().size() + colors
     }
 
     /// Writes rays from the host, row by row from the top left; the rest of the batch has no query.

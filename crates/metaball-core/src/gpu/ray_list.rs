@@ -1,15 +1,10 @@
-//! The list of the rays of a batch that have one query.
-
-use std::sync::OnceLock;
+//! A list of rays on the device.
 
 use bytemuck::{Pod, Zeroable};
 
-use super::layout::{Binding, bind_group, bind_group_layout};
-use super::pipeline::{Specialization, compute_pipeline};
-use super::{Frame, Gpu, RenderError};
-use crate::RayQuery;
+use super::{Gpu, RenderError};
 
-/// What a list begins with: WGSL's `Listed` of `shaders/wgsl/batch/list.wgsl`. The first twelve bytes are
+/// What a list begins with: WGSL's `Listed` of `shaders/wgsl/core/ray_list.wgsl`. The first twelve bytes are
 /// the arguments of an indirect dispatch along it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -20,71 +15,36 @@ pub(super) struct ListHead {
     pub(super) count: u32,
 }
 
-/// The list, and the passes that make it: one for each query.
+/// A list of rays, each by its pixel, that passes write and others run along: WGSL's `Listed` and `Listing` of
+/// `shaders/wgsl/core/ray_list.wgsl`. Four bytes a pixel.
 #[derive(Debug)]
-pub(super) struct RayList {
+pub struct RayList {
     buffer: wgpu::Buffer,
-    layout: wgpu::BindGroupLayout,
-    bind_group: wgpu::BindGroup,
-    pipelines: [OnceLock<wgpu::ComputePipeline>; RayQuery::ALL.len()],
 }
 
 impl RayList {
-    /// For batches of so many rays.
-    pub(super) fn new(
-        gpu: &Gpu,
-        pixels: u64,
-        view: &wgpu::Buffer,
-        rays: &wgpu::Buffer,
-    ) -> Result<Self, RenderError> {
+    /// For a picture of so many pixels.
+    ///
+    /// # Errors
+    /// When the adapter cannot bind so much.
+    pub fn new(gpu: &Gpu, pixels: u64) -> Result<Self, RenderError> {
         let bytes = size_of::<ListHead>() as u64 + pixels * size_of::<u32>() as u64;
-        let buffer = gpu.storage("listed rays", bytes, wgpu::BufferUsages::INDIRECT)?;
-        let bindings = [(0, Binding::Uniform), (1, Binding::Read), (2, Binding::Write)];
-        let layout = bind_group_layout(gpu, "listed rays", &bindings);
-        let buffers = [(0, view), (1, rays), (2, &buffer)];
-        let bind_group = gpu.checked(|| bind_group(gpu, "listed rays", &layout, &buffers))?;
-        Ok(Self { buffer, layout, bind_group, pipelines: Default::default() })
+        Ok(Self { buffer: gpu.storage("listed rays", bytes, wgpu::BufferUsages::INDIRECT)? })
     }
 
-    pub(super) fn buffer(&self) -> &wgpu::Buffer {
+    /// The list itself. Its first twelve bytes are the arguments of an indirect dispatch along it, 64 rays a
+    /// workgroup.
+    pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }
 
-    /// Records the pass `label` that lists the rays with this query.
-    pub(super) fn encode(
-        &self,
-        frame: &mut Frame<'_>,
-        query: RayQuery,
-        label: &'static str,
-    ) -> Result<(), RenderError> {
-        let pipeline = self.pipeline(frame.gpu(), query)?;
-        let (across, down) = frame.targets().workgroups();
-        frame.encoder().clear_buffer(&self.buffer, 0, Some(size_of::<ListHead>() as u64));
-        frame.compute(label, |pass| {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, &self.bind_group, &[]);
-            pass.dispatch_workgroups(across, down, 1);
-        });
-        Ok(())
+    /// Empties the list.
+    pub fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.clear_buffer(&self.buffer, 0, Some(size_of::<ListHead>() as u64));
     }
 
-    fn pipeline(&self, gpu: &Gpu, query: RayQuery) -> Result<&wgpu::ComputePipeline, RenderError> {
-        let slot = &self.pipelines[query as usize - 1];
-        if let Some(made) = slot.get() {
-            return Ok(made);
-        }
-        let spec = Specialization::without_balls();
-        let constants = [(RayQuery::CONSTANT, f64::from(query as u32))];
-        let layouts = [&self.layout];
-        let made = compute_pipeline(
-            gpu,
-            "listed rays",
-            "batch/list_rays",
-            "list_rays",
-            &spec,
-            &layouts,
-            &constants,
-        )?;
-        Ok(slot.get_or_init(|| made))
+    /// Runs a pass, whose pipeline and groups are set, along the list. It may not write it.
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>) {
+        pass.dispatch_workgroups_indirect(&self.buffer, 0);
     }
 }

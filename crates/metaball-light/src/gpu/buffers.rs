@@ -55,7 +55,7 @@ impl Buffers {
             (0, Binding::Uniform, targets.view()),
             (1, Binding::Write, rays.rays()),
             (2, Binding::Write, rays.hits()),
-            (6, Binding::Read, rays.list()),
+            (6, Binding::Read, rays.list().buffer()),
         ];
         bound.extend(rays.colors().map(|colors| (4, Binding::Write, colors)));
         bound
@@ -67,7 +67,7 @@ impl Buffers {
         vec![
             (0, Binding::Write, rays.rays()),
             (1, Binding::Write, rays.hits()),
-            (2, Binding::Read, rays.list()),
+            (2, Binding::Read, rays.list().buffer()),
         ]
     }
 

@@ -103,7 +103,7 @@ impl Passes {
         answered: &RayBatch,
     ) {
         self.bind(pass, pipeline);
-        pass.dispatch_workgroups_indirect(answered.list(), 0);
+        answered.list().dispatch(pass);
     }
 
     fn bind(&self, pass: &mut wgpu::ComputePass<'_>, pipeline: &wgpu::ComputePipeline) {
