@@ -198,14 +198,32 @@ pub const INTERFACES: &[Interface] = &[
         ",
     },
     Interface {
+        folder: "illes_fraglist/array_size",
+        purpose: "The size of a ray's local arrays: WGSL has no private arrays of overridable size.",
+        declarations: "
+            // Separators of three a ball.
+            const ARRAY_SIZE: u32
+        ",
+    },
+    Interface {
         folder: "illes_fraglist/piece",
         purpose: "The field between two separators as a polynomial.",
         declarations: "
-            // Passes a separator: its ball's rank, and its kind.
-            fn pass_separator(rank: u32, kind: u32, direction: vec3<f32>)
+            // What a separator changes.
+            struct Change
+            // That of each separator of a ball: `enter`, `middle`, `leave`.
+            struct Changes
+            fn changes_of(rank: u32, segment: Segment, radius: f32) -> Changes
+            fn pass_separator(change: Change, direction: vec3<f32>)
             // The first point in [start, end] where the field reaches the threshold, or NO_ROOT. No
             // separator lies between the two.
             fn first_root(start: f32, end: f32) -> f32
+            // What a ray that waits must keep beside its list and its position.
+            fn kept_sum() -> vec4<f32>
+            // Sets it, after all separators up to the position are passed again.
+            fn restore_sum(sum: vec4<f32>)
+            // Whether a ray at a position can wait, with this the next separator to pass.
+            fn can_wait_before(at: f32, position: f32) -> bool
         ",
     },
     Interface {

@@ -93,16 +93,17 @@ const METHODS: &[Method] = &[
         title: "Fragment lists",
         paper: "Illés and Szécsi, Efficient GPU Fluid Visualization",
         about: "Each pixel gathers a list of the balls along its ray; between the ends and midpoints \
-                of their chords the field is approximated by a cubic.",
-        technique: fragment_lists(Piece::Cubic),
+                of their chords the field is approximated by a cubic, a running sum in powers of the \
+                distance, which loses its digits away from the eye.",
+        technique: fragment_lists(Piece::Running),
     },
     Method {
-        name: "illes-absolute",
-        title: "Fragment lists, printed basis",
-        paper: "Illés and Szécsi, Efficient GPU Fluid Visualization, section 4",
-        about: "The same with the cubic as printed, a running sum in powers of the distance, which \
-                loses its digits away from the eye.",
-        technique: fragment_lists(Piece::AbsoluteCubic),
+        name: "illes-rebuilt",
+        title: "Fragment lists, rebuilt cubics",
+        paper: "not published: the same cubics without a running sum",
+        about: "The same with each cubic made anew from the balls that are active between two points, \
+                right to rounding at any distance.",
+        technique: fragment_lists(Piece::Rebuilt),
     },
     Method {
         name: "illes-exact",

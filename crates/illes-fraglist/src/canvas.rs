@@ -1,13 +1,13 @@
 //! What the adapter keeps for pictures of one size.
 
 use bytemuck::{Pod, Zeroable};
-use metaball_core::gpu::{Gpu, RenderError, Resource, Targets, TileBins, bind_group};
+use metaball_core::gpu::{Gpu, RayList, RenderError, Resource, Targets, TileBins, bind_group};
 
 use crate::layouts::{CORE_FORMAT, DEPTH_FORMAT, Layouts};
 use crate::lists::Lists;
 
-/// How far the search of a pixel is between two dispatches: WGSL's `Progress` of
-/// `shaders/wgsl/illes_fraglist/cast.wgsl`. The host only needs its size.
+/// How far a ray that waits is: WGSL's `Progress` of
+/// `shaders/wgsl/illes_fraglist/waiting.wgsl`. The host only needs its size.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(crate) struct Progress {
@@ -38,6 +38,16 @@ pub(crate) struct Canvas {
     pub(crate) core: wgpu::TextureView,
     pub(crate) depth: wgpu::TextureView,
     progress: wgpu::Buffer,
+    /// The running sums of rays that wait, four coefficients a pixel.
+    sums: wgpu::Buffer,
+    /// What dispatches of the cast write and read in turn. The gathering is bound to either.
+    pub(crate) turns: [Turn; 2],
+}
+
+/// A dispatch of the cast, which resumes the rays that wait after the one before it.
+pub(crate) struct Turn {
+    /// The rays that wait after it.
+    pub(crate) waiting: RayList,
     /// Group 3 of the passes that gather and cast.
     pub(crate) bind_group: wgpu::BindGroup,
 }
@@ -76,20 +86,34 @@ impl Canvas {
         let progress_bytes = pixels * size_of::<Progress>() as u64;
         let progress =
             gpu.storage("illes progress", progress_bytes, wgpu::BufferUsages::empty())?;
-        let bind_group = gpu.checked(|| {
-            let resources: [(u32, Resource<'_>); 4] = [
+        let sum_bytes = pixels * size_of::<[f32; 4]>() as u64;
+        let sums = gpu.storage("illes sums", sum_bytes, wgpu::BufferUsages::empty())?;
+        let waiting = [RayList::new(gpu, pixels)?, RayList::new(gpu, pixels)?];
+        let group = |resumed: &RayList, waiting: &RayList| {
+            let resources: [(u32, Resource<'_>); 7] = [
                 (0, (&lists.heads).into()),
                 (1, (&lists.pool).into()),
                 (2, (&core).into()),
                 (3, (&progress).into()),
+                (7, resumed.buffer().into()),
+                (8, waiting.buffer().into()),
+                (9, (&sums).into()),
             ];
-            bind_group(gpu, "illes lists", &layouts.lists, &resources)
-        })?;
+            gpu.checked(|| bind_group(gpu, "illes lists", &layouts.lists, &resources))
+        };
+        let [first, second] = &waiting;
+        let groups = [group(second, first)?, group(first, second)?];
         let tiles = capacities
             .entries
             .map(|entries| Tiles::new(gpu, layouts, entries, &lists, &core))
             .transpose()?;
-        Ok(Self { width, height, capacities, lists, tiles, core, depth, progress, bind_group })
+        let [first, second] = waiting;
+        let [of_first, of_second] = groups;
+        let turns = [
+            Turn { waiting: first, bind_group: of_first },
+            Turn { waiting: second, bind_group: of_second },
+        ];
+        Ok(Self { width, height, capacities, lists, tiles, core, depth, progress, sums, turns })
     }
 
     /// Whether this is a canvas for such targets with such capacities.
@@ -98,20 +122,20 @@ impl Canvas {
             && self.capacities == capacities
     }
 
-    /// Empties the lists of pixels and tiles and begins all searches: at the start of a frame.
+    /// Empties the lists of pixels and tiles, at the start of a frame.
     pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
         self.lists.clear(encoder);
-        encoder.clear_buffer(&self.progress, 0, None);
         if let Some(tiles) = &self.tiles {
             tiles.bins.clear(encoder);
         }
     }
 
-    /// Bytes on the adapter: 28 a pixel, the nodes, and what the tiles take.
+    /// Bytes on the adapter: 52 a pixel, the nodes, and what the tiles take.
     pub(crate) fn bytes(&self) -> u64 {
         let textures = 8 * u64::from(self.width) * u64::from(self.height);
         let tiles = self.tiles.as_ref().map_or(0, |tiles| tiles.bins.bytes());
-        self.lists.bytes() + self.progress.size() + textures + tiles
+        let waiting: u64 = self.turns.iter().map(|turn| turn.waiting.buffer().size()).sum();
+        self.lists.bytes() + self.progress.size() + self.sums.size() + waiting + textures + tiles
     }
 }
 
@@ -146,11 +170,11 @@ mod tests {
     use metaball_shaders::{compose, host_layout, struct_layout};
 
     use super::*;
-    use crate::Piece;
+    use crate::Options;
 
     #[test]
     fn progress_is_that_of_the_shader() {
-        let spec = Specialization::without_balls().choosing(Piece::Cubic.modules());
+        let spec = Specialization::without_balls().choosing(Options::PUBLISHED.modules());
         let module = compose("illes_fraglist/cast", &spec.variant()).expect("composes");
         let progress = host_layout!(Progress { stage, node, position, fallback });
         assert_eq!(struct_layout(&module, "Progress"), Some(progress));

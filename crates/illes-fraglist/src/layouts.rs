@@ -19,7 +19,8 @@ pub(crate) struct Layouts {
     pub(crate) balls: wgpu::BindGroupLayout,
     /// Group 2 of the radix sort: entries read, entries written, digit table, ball of each rank.
     pub(crate) sort: wgpu::BindGroupLayout,
-    /// Group 3: list heads, list nodes, core distance, progress.
+    /// Group 3: list heads, list nodes, core distance, progress, rays of a dispatch, rays that wait,
+    /// sums.
     pub(crate) lists: wgpu::BindGroupLayout,
     /// Group 3 of the passes over tiles: list heads, list nodes, tile marks, tile entries, core distance.
     pub(crate) tiles: wgpu::BindGroupLayout,
@@ -34,7 +35,18 @@ impl Layouts {
             scene: scene_layout(gpu, spec),
             balls: layout("illes balls", &[(0, Read), (1, Read)]),
             sort: layout("illes sort", &[(0, Read), (1, Write), (2, Write), (3, Write)]),
-            lists: layout("illes lists", &[(0, Write), (1, Write), (2, Texture), (3, Write)]),
+            lists: layout(
+                "illes lists",
+                &[
+                    (0, Write),
+                    (1, Write),
+                    (2, Texture),
+                    (3, Write),
+                    (7, Read),
+                    (8, Write),
+                    (9, Write),
+                ],
+            ),
             tiles: layout(
                 "illes tiles",
                 &[(0, Write), (1, Write), (4, Write), (5, Write), (6, WriteTexture(CORE_FORMAT))],

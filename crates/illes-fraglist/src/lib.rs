@@ -17,18 +17,11 @@
 //! | `cores` | distance to the nearest *core*: the sphere in which a ball alone reaches the threshold |
 //! | `gather` | each ball's rank into the lists of the pixels whose rays meet its support before the core |
 //! | `cast` | lists into separators in a short array, of which those in the *safe zone*, nearer than any ball that follows in the list, are passed one by one (section 6) |
-//! | `resume` | the same for rays whose search exceeded the budget of one dispatch |
+//! | `resume` | the same for the rays, on a list, whose search exceeded the budget of one dispatch |
 //!
 //! # Changes versus the paper
 //! *Equation (2)* as printed has the cubic rise from the wrong t: m must be m − Q. The table of Δw in
 //! section 4 has γ(s) where γ(m) is meant: γ vanishes at both ends.
-//!
-//! *No running sum.* The printed coefficients of (s³, s², s, 1) are wrong by 4 % of a ball ten radii
-//! from the eye, by half a ball at thirty. Shifted from separator to separator they drift with the path,
-//! since a ball's three increments cancel only where its f32 separators are exactly Q apart. Here the
-//! balls active between two separators are kept, and each piece is made from their values and slopes at
-//! its ends, in Bernstein form: right to 1.3e-6 anywhere. [`Piece::AbsoluteCubic`] is the printed form,
-//! to show the difference.
 //!
 //! *The core is a hit.* Some kernels' cubics lie below the kernel, and a ray clipped at the core would
 //! have no root: with the quartic every isolated ball would vanish. A ray that reaches a core without a
@@ -44,7 +37,14 @@
 //! *Pools grow.* A frame that ran out of list nodes reports how many it needed and is drawn again.
 //! *Rays can wait* for the next dispatch: see `shaders/wgsl/illes_fraglist/budget.wgsl`.
 //!
-//! *Variants of ours*: [`Piece::Robust`] searches a ray without the array once that is full, by upper
+//! *Rebuilt cubics*, a variant of ours: the running sum of the printed Δw, coefficients of (s³, s², s, 1), is
+//! wrong by 4 % of a ball ten radii from the eye, by half a ball at thirty. Shifted from separator to
+//! separator it would drift with the path, since a ball's three increments cancel only where its f32
+//! separators are exactly Q apart. [`Piece::Rebuilt`] keeps the balls that are active between two separators,
+//! and makes each piece from their values and slopes at its ends, in Bernstein form: right to 1.3e-6
+//! anywhere.
+//!
+//! *Other variants of ours*: [`Piece::Robust`] searches a ray without the array once that is full, by upper
 //! bounds of the field over intervals of the ray, one walk along the list for each; [`Gather::Tiles`]
 //! gathers in compute, balls into tiles of the picture (pass `bin`: count, prefix sum, fill) and tiles
 //! into cores and lists of pixels.
@@ -61,7 +61,7 @@
 //!
 //! A pixel's list may have [`LIST_CAPACITY`] balls before the core, and a tile [`TILE_CAPACITY`]; more is
 //! refused with the number, as is a pool that exceeds what the adapter binds: 16.7 million nodes where
-//! that is 128 MiB. A picture takes 28 bytes a pixel and 8 a list node; a scene 24 a ball, and 16 more to
+//! that is 128 MiB. A picture takes 52 bytes a pixel and 8 a list node; a scene 24 a ball, and 16 more to
 //! be sorted on the adapter.
 //!
 //! ```no_run
@@ -86,6 +86,7 @@
 
 mod balls;
 mod canvas;
+mod cast;
 mod deviation;
 mod gather;
 mod layouts;

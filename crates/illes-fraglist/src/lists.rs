@@ -96,11 +96,11 @@ mod tests {
     use metaball_shaders::{compose, host_layout, struct_layout};
 
     use super::*;
-    use crate::Piece;
+    use crate::Options;
 
     #[test]
     fn structs_are_those_of_the_shaders() {
-        let spec = Specialization::without_balls().choosing(Piece::Cubic.modules());
+        let spec = Specialization::without_balls().choosing(Options::PUBLISHED.modules());
         let module = compose("illes_fraglist/cast", &spec.variant()).expect("composes");
         assert_eq!(struct_layout(&module, "Node"), Some(host_layout!(Node { rank, next })));
         let pool = struct_layout(&module, "Pool").expect("lists.wgsl has a pool");

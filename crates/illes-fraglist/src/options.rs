@@ -5,11 +5,11 @@ use metaball_core::Kernel;
 /// The polynomial between two separators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Piece {
-    /// The published cubic, from the balls active in each piece.
-    Cubic,
-    /// The published cubic as the printed running sum in powers of t, which loses its digits with the
-    /// distance from the eye.
-    AbsoluteCubic,
+    /// The published cubic, a running sum in powers of t, which loses its digits with the distance from the
+    /// eye.
+    Running,
+    /// The same cubic, made anew from the balls active in each piece. Not published.
+    Rebuilt,
     /// The field itself, of degree four or six.
     Exact,
     /// The same; and where a ray has more separators than the local array holds, the rest of the ray is
@@ -46,15 +46,14 @@ pub struct Options {
     /// Where balls are sorted.
     pub sort: Sort,
     /// Separators that a ray's local array holds, from 3 to [`ARRAY_CAPACITY`]; others are taken as the
-    /// nearest of these.
+    /// nearest of these. The array is compiled with 12, 24, 48 or 96, the least of them that holds so many.
     pub array_capacity: u32,
     /// List nodes that the first pool holds, 8 bytes each. With too few, a frame is drawn again.
     pub first_nodes: u32,
 }
 
-/// The largest [`Options::array_capacity`], and the default: separators of a ray's local array as it is
-/// compiled, `ARRAY_CAPACITY` of `shaders/wgsl/illes_fraglist/records.wgsl`. Section 6 has "surely less
-/// than 100"; a ball has three.
+/// The largest [`Options::array_capacity`], and the default: the longest of the local arrays in
+/// `shaders/wgsl/illes_fraglist/array_size`. Section 6 has "surely less than 100"; a ball has three.
 pub const ARRAY_CAPACITY: u32 = 96;
 
 /// The most balls that a ray may meet before its core: walks along its list must stay within the
@@ -74,7 +73,7 @@ pub const ROOT_TOLERANCE: f64 = 4e-7;
 impl Options {
     /// The published method; 8 MB of nodes.
     pub const PUBLISHED: Self = Self {
-        piece: Piece::Cubic,
+        piece: Piece::Running,
         gather: Gather::Raster,
         sort: Sort::Host,
         array_capacity: ARRAY_CAPACITY,
@@ -89,18 +88,46 @@ impl Default for Options {
     }
 }
 
-impl Piece {
-    /// Names of the WGSL modules to choose.
-    pub(crate) fn modules(self) -> &'static [&'static str] {
-        const PRINTED: &str = "illes_fraglist/overlap/printed";
-        match self {
-            Self::Cubic => &["illes_fraglist/piece/cubic", PRINTED],
-            Self::AbsoluteCubic => &["illes_fraglist/piece/absolute_cubic", PRINTED],
-            Self::Exact => &["illes_fraglist/piece/exact", PRINTED],
-            Self::Robust => &["illes_fraglist/piece/exact", "illes_fraglist/overlap/searched"],
-        }
+/// The modules of a piece, with each size of array.
+macro_rules! with_arrays {
+    ($piece:literal, $overlap:literal) => {
+        [
+            (12, &[$piece, $overlap, "illes_fraglist/array_size/of_12"]),
+            (24, &[$piece, $overlap, "illes_fraglist/array_size/of_24"]),
+            (48, &[$piece, $overlap, "illes_fraglist/array_size/of_48"]),
+            (ARRAY_CAPACITY, &[$piece, $overlap, "illes_fraglist/array_size/of_96"]),
+        ]
+    };
+}
+
+impl Options {
+    /// Separators that a ray's local array holds: [`Options::array_capacity`] within its range.
+    pub(crate) fn capacity(&self) -> u32 {
+        self.array_capacity.clamp(3, ARRAY_CAPACITY)
     }
 
+    /// Names of the WGSL modules to choose.
+    pub(crate) fn modules(&self) -> &'static [&'static str] {
+        let by_size: [(u32, &'static [&'static str; 3]); 4] = match self.piece {
+            Piece::Running => {
+                with_arrays!("illes_fraglist/piece/running_cubic", "illes_fraglist/overlap/printed")
+            }
+            Piece::Rebuilt => {
+                with_arrays!("illes_fraglist/piece/rebuilt_cubic", "illes_fraglist/overlap/printed")
+            }
+            Piece::Exact => {
+                with_arrays!("illes_fraglist/piece/exact", "illes_fraglist/overlap/printed")
+            }
+            Piece::Robust => {
+                with_arrays!("illes_fraglist/piece/exact", "illes_fraglist/overlap/searched")
+            }
+        };
+        let fits = |(size, _): &(u32, _)| *size >= self.capacity();
+        by_size.into_iter().find(fits).map_or(&[], |(_, modules)| modules)
+    }
+}
+
+impl Piece {
     /// Whether the piece is the field's own polynomial.
     pub fn is_exact(self) -> bool {
         matches!(self, Self::Exact | Self::Robust)

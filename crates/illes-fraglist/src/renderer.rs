@@ -21,6 +21,8 @@ pub struct Renderer {
     name: &'static str,
     options: Options,
     counting: bool,
+    /// Iterations after which a ray waits; `None`: what the shader has.
+    budget: Option<u32>,
     /// What the next canvas holds at most.
     capacities: Capacities,
     /// Dispatches of the cast after the first.
@@ -42,6 +44,7 @@ impl Renderer {
             name,
             options,
             counting,
+            budget: None,
             capacities: Capacities { nodes: options.first_nodes, entries },
             resumes: 0,
             pipelines: None,
@@ -80,6 +83,18 @@ impl Renderer {
             }
             self.grow(gpu, &status)?;
         }
+    }
+
+    /// The same with another budget of iterations, after which a ray waits for the next dispatch.
+    #[cfg(test)]
+    pub(crate) fn with_budget(self, iterations: u32) -> Self {
+        Self { budget: Some(iterations), ..self }
+    }
+
+    /// Dispatches of the last frame's cast after the first.
+    #[cfg(test)]
+    pub(crate) fn resumes(&self) -> u32 {
+        self.resumes
     }
 
     /// The balls of the last frame in their order.
@@ -126,10 +141,10 @@ impl IsoRenderer for Renderer {
             return Err(RenderError::Unsupported { method: self.name, reason });
         }
         let start = Instant::now();
-        let specialized = Specialization::of(scene, self.counting).choosing(piece.modules());
+        let specialized = Specialization::of(scene, self.counting).choosing(self.options.modules());
         let pipelines = match self.pipelines.take() {
             Some(pipelines) if pipelines.specialized == specialized => pipelines,
-            _ => Pipelines::new(gpu, specialized, &self.options)?,
+            _ => Pipelines::new(gpu, specialized, &self.options, self.budget)?,
         };
         let compilation = start.elapsed();
 
@@ -154,19 +169,7 @@ impl IsoRenderer for Renderer {
         else {
             return Err(RenderError::NotBuilt { method: self.name });
         };
-        let targets = frame.targets();
-        let (columns, rows) = targets.workgroups();
-        for dispatch in 0..=self.resumes {
-            let label = if dispatch == 0 { "cast" } else { "resume" };
-            frame.compute(label, |pass| {
-                pass.set_pipeline(&pipelines.cast);
-                pass.set_bind_group(0, targets.bind_group(), &[]);
-                pass.set_bind_group(1, balls.scene.bind_group(), &[]);
-                pass.set_bind_group(2, &balls.bind_group, &[]);
-                pass.set_bind_group(3, &canvas.bind_group, &[]);
-                pass.dispatch_workgroups(columns, rows, 1);
-            });
-        }
+        pipelines.cast.record(frame, balls, canvas, self.resumes);
         Ok(())
     }
 

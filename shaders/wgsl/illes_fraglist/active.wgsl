@@ -1,9 +1,14 @@
-// The balls whose chords hold the current piece of the ray.
+// The balls whose chords hold the current piece of the ray, for pieces that are made anew from them.
 
+#import illes_fraglist::array_size::ARRAY_SIZE
 #import illes_fraglist::balls::{segment_of, support_of_rank}
 #import illes_fraglist::budget
-#import illes_fraglist::records::ARRAY_CAPACITY
 #import work::count_balls
+
+// What a separator is to its ball.
+const ENTER: u32 = 0u;
+const MIDDLE: u32 = 1u;
+const LEAVE: u32 = 2u;
 
 struct Active {
     rank: u32,
@@ -16,8 +21,21 @@ struct Active {
 }
 
 // Each active ball's LEAVE is among the records, so there are at most as many.
-var<private> balls: array<Active, ARRAY_CAPACITY>;
+var<private> balls: array<Active, ARRAY_SIZE>;
 var<private> count: u32;
+
+// A separator as one number: four times the ball's rank, plus the kind.
+fn label_of(rank: u32, kind: u32) -> u32 {
+    return 4u * rank + kind;
+}
+
+fn rank_of(label: u32) -> u32 {
+    return label >> 2u;
+}
+
+fn kind_of(label: u32) -> u32 {
+    return label & 3u;
+}
 
 // A ball as the ray meets it, without its weight.
 fn ball_along(rank: u32, direction: vec3<f32>) -> Active {

@@ -5,8 +5,10 @@
 #import color::{blend_add, blend_start, blend_write}
 #import core::field::{contribution, depth_below_rim, gradient, offset_at, outward_normal}
 #import core::hit
+#import core::ray_list::{index_in_list, Listed}
+#import core::scene::Support
 #import core::status::{report_finished, report_needed, report_unfinished}
-#import core::view::{in_picture, pixel_at, rays, view}
+#import core::view::{rays, view}
 #import illes_fraglist::balls::{ball_of_rank, effective_distance, segment_of, support_of_rank}
 #import illes_fraglist::budget
 #import illes_fraglist::lists
@@ -14,30 +16,13 @@
 #import illes_fraglist::overlap
 #import illes_fraglist::piece
 #import illes_fraglist::records
+#import illes_fraglist::waiting::{progress, wait, Progress, FRESH, ORDERED, OVERFULL, UNORDERED}
 #import work::{count_layers, write_work}
 
-// The state of a pixel between two dispatches; zeros when the frame begins. Twin: Progress of
-// crates/illes-fraglist/src/canvas.rs. The local arrays are not kept: they follow from the list up to `node`
-// and the position.
-struct Progress {
-    stage: u32,
-    // Node of the list to resume at; of an overfull pixel the width of the next interval, as bits.
-    node: u32,
-    // Distance along the ray up to which there is no root.
-    position: f32,
-    // FALLBACK or 0.
-    fallback: u32,
-}
-
-// Stages of a pixel.
-const FRESH: u32 = 0u;
-const UNORDERED: u32 = 1u;
-const WAITING: u32 = 2u;
-// Searched without the array.
-const OVERFULL: u32 = 3u;
-const DONE: u32 = 4u;
-
-@group(3) @binding(3) var<storage, read_write> progress: array<Progress>;
+// What its piece keeps of each ray that waits, one a pixel.
+@group(3) @binding(9) var<storage, read_write> sums: array<vec4<f32>>;
+// The rays that waited for this dispatch.
+@group(3) @binding(7) var<storage, read> listed: Listed;
 
 // Outcomes of following the ray.
 const PASSED: u32 = 0u;
@@ -52,70 +37,89 @@ var<private> limit: f32;
 var<private> position: f32;
 var<private> fallback: u32;
 
-@compute @workgroup_size(8, 8)
-fn cast_rays(@builtin(global_invocation_id) id: vec3<u32>) {
-    if !in_picture(id.xy) {
+@compute @workgroup_size(64)
+fn cast_rays(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_index) index: u32,
+) {
+    let at = index_in_list(group, index);
+    if at >= listed.count {
         return;
     }
-    let pixel = pixel_at(id.xy);
+    let pixel = listed.pixels[at];
     let before = progress[pixel];
-    if before.stage == DONE {
-        return;
-    }
     var now = before;
-    if now.stage == FRESH && order::is_too_long(pixel) {
-        report_unfinished();
-        report_needed(1u, budget::LIST_CAPACITY + 1u);
-        progress[pixel].stage = DONE;
-        return;
-    }
-    if now.stage == FRESH || now.stage == UNORDERED {
-        now.stage = UNORDERED;
-        if order::restore_order(pixel) {
-            now = Progress(WAITING, lists::head_of(pixel), 0.0, 0u);
+    if now.stage == FRESH {
+        let found = order::order_of(pixel);
+        if found == order::TOO_LONG {
+            report_unfinished();
+            report_needed(1u, budget::LIST_CAPACITY + 1u);
+            return;
         }
+        now = at_first_node(pixel, select(UNORDERED, ORDERED, found == order::IN_ORDER));
     }
+    if now.stage == UNORDERED && order::restore_order(pixel) {
+        now = at_first_node(pixel, ORDERED);
+    }
+    var is_answered = false;
     if now.stage != UNORDERED {
-        let ray = rays[pixel];
-        direction = ray.direction;
-        let core = lists::core_distance_at(id.xy);
-        limit = min(core, ray.t_max);
-        position = now.position;
-        fallback = now.fallback;
-        var node = now.node;
-        var outcome = NO_CAPACITY;
-        if now.stage == WAITING {
-            restore_arrays(lists::head_of(pixel), node);
-            budget::begin();
-            outcome = follow(&node);
-            now = Progress(WAITING, node, position, fallback);
+        var kept = vec4(0.0);
+        if before.stage == ORDERED {
+            kept = sums[pixel];
         }
-        if outcome == NO_CAPACITY {
-            var width = select(0.0, bitcast<f32>(now.node), now.stage == OVERFULL);
-            outcome = search_without_array(lists::head_of(pixel), &width);
-            now = Progress(OVERFULL, bitcast<u32>(width), position, fallback);
-        }
-        if outcome != SPENT {
-            now.stage = DONE;
-            if outcome == FOUND {
-                write(pixel, position);
-            } else if core < ray.t_max {
-                // The core lies inside the surface, so a ray that reaches it has hit; the cubic of
-                // some kernels lies below the kernel and has no root there.
-                atomicAdd(&lists::pool.core_hits, 1u);
-                write(pixel, core);
-            } else {
-                write_miss(pixel);
-            }
-        }
+        is_answered = cast_ray(pixel, &now, kept);
     }
     write_work(pixel);
-    progress[pixel] = now;
-    if before.stage == FRESH && now.stage != DONE {
+    if !is_answered {
+        sums[pixel] = piece::kept_sum();
+        wait(pixel, now);
+    }
+    if before.stage == FRESH && !is_answered {
         report_unfinished();
-    } else if before.stage != FRESH && now.stage == DONE {
+    } else if before.stage != FRESH && is_answered {
         report_finished();
     }
+}
+
+fn at_first_node(pixel: u32, stage: u32) -> Progress {
+    return Progress(stage, lists::head_of(pixel), 0.0, 0u);
+}
+
+// Follows a ray from where it is, and writes its answer. Returns whether there is one.
+fn cast_ray(pixel: u32, now: ptr<function, Progress>, kept: vec4<f32>) -> bool {
+    let ray = rays[pixel];
+    direction = ray.direction;
+    let core = lists::core_distance_at(vec2(pixel % view.width, pixel / view.width));
+    limit = min(core, ray.t_max);
+    position = (*now).position;
+    fallback = (*now).fallback;
+    var outcome = NO_CAPACITY;
+    var width = 0.0;
+    if (*now).stage == ORDERED {
+        var node = (*now).node;
+        restore_arrays(lists::head_of(pixel), node);
+        piece::restore_sum(kept);
+        budget::begin();
+        outcome = follow(&node);
+        *now = Progress(ORDERED, node, position, fallback);
+    } else {
+        width = bitcast<f32>((*now).node);
+    }
+    if outcome == NO_CAPACITY {
+        outcome = search_without_array(lists::head_of(pixel), &width);
+        *now = Progress(OVERFULL, bitcast<u32>(width), position, fallback);
+    }
+    if outcome == FOUND {
+        write(pixel, position);
+    } else if outcome == PASSED && core < ray.t_max {
+        // The core lies inside the surface, so a ray that reaches it has hit; the cubic of
+        // some kernels lies below the kernel and has no root there.
+        atomicAdd(&lists::pool.core_hits, 1u);
+        write(pixel, core);
+    } else if outcome == PASSED {
+        write_miss(pixel);
+    }
+    return outcome != SPENT;
 }
 
 // Puts the balls before a node of the list back into the arrays, as far as the ray is not past them.
@@ -134,60 +138,74 @@ fn restore_ball(node: u32, end: u32) -> u32 {
     if node == end {
         return end;
     }
-    admit(lists::rank_at(node));
-    return lists::after(node);
+    let restored = lists::node_at(node);
+    admit(restored.rank, support_of_rank(restored.rank));
+    return restored.next;
 }
 
 // Follows the ray to its first root or its end.
 fn follow(node: ptr<function, u32>) -> u32 {
     // At the limit all is passed, also what exceeded the array's capacity.
     while *node != lists::END && position < limit {
-        if !budget::can_continue() {
+        if must_wait() {
             return SPENT;
         }
-        let rank = lists::rank_at(*node);
-        var outcome = pass_up_to(effective_distance(support_of_rank(rank)));
+        let next = lists::node_at(*node);
+        let support = support_of_rank(next.rank);
+        var outcome = pass_up_to(effective_distance(support));
         if outcome == PASSED {
             outcome = free_capacity();
         }
         if outcome != PASSED {
             return outcome;
         }
-        admit(rank);
+        admit(next.rank, support);
         count_layers(1u);
         budget::spend(1u);
-        *node = lists::after(*node);
+        *node = next.next;
     }
     // Beyond the last separator there is no ball, and none is recorded beyond the limit.
     return pass_up_to(limit);
 }
 
+// Whether the budget is spent, where the ray can wait.
+fn must_wait() -> bool {
+    return !budget::can_continue()
+        && (records::count == 0u || piece::can_wait_before(records::nearest(), position));
+}
+
 // Takes in a ball: separators behind the position are passed on the spot, the others recorded.
 // Section 4: an eye inside supports starts with the sum of their segments.
-fn admit(rank: u32) {
-    let support = support_of_rank(rank);
+fn admit(rank: u32, support: Support) {
     let segment = segment_of(support.center, support.radius, direction);
     let start = segment.middle - segment.half;
     let end = segment.middle + segment.half;
     if segment.half == 0.0 || end <= position {
         return;
     }
-    var first = records::ENTER;
-    if start <= position {
-        piece::pass_separator(rank, records::ENTER, direction);
-        first = records::MIDDLE;
+    let changes = piece::changes_of(rank, segment, support.radius);
+    let has_entered = start <= position;
+    let has_turned = segment.middle <= position;
+    if has_entered {
+        piece::pass_separator(changes.enter, direction);
     }
-    if segment.middle <= position {
-        piece::pass_separator(rank, records::MIDDLE, direction);
-        first = records::LEAVE;
+    if has_turned {
+        piece::pass_separator(changes.middle, direction);
     }
-    records::insert(rank, min(vec3(start, segment.middle, end), vec3(limit)), first);
+    records::make_room(3u - u32(has_entered) - u32(has_turned));
+    if !has_entered {
+        records::insert(min(start, limit), changes.enter);
+    }
+    if !has_turned {
+        records::insert(min(segment.middle, limit), changes.middle);
+    }
+    records::insert(min(end, limit), changes.leave);
 }
 
 // Passes all separators up to a distance.
 fn pass_up_to(safe: f32) -> u32 {
     while records::count > 0u && records::nearest() <= safe {
-        if !budget::can_continue() {
+        if must_wait() {
             return SPENT;
         }
         if pass_nearest() {
@@ -204,7 +222,7 @@ fn free_capacity() -> u32 {
         if overlap::can_search() {
             return NO_CAPACITY;
         }
-        if !budget::can_continue() {
+        if must_wait() {
             return SPENT;
         }
         fallback = hit::FALLBACK;
@@ -229,11 +247,11 @@ fn search_without_array(head: u32, width: ptr<function, f32>) -> u32 {
 
 // Searches the piece before the nearest separator, and passes it when there is no root.
 fn pass_nearest() -> bool {
-    let record = records::take();
-    if record.at > position && search(record.at) {
+    let at = records::nearest();
+    if at > position && search(at) {
         return true;
     }
-    piece::pass_separator(records::rank_of(record), records::kind_of(record), direction);
+    piece::pass_separator(records::take(), direction);
     budget::spend(1u);
     return false;
 }

@@ -44,6 +44,10 @@ fn head_of(pixel: u32) -> u32 {
     return atomicLoad(&heads[pixel]);
 }
 
+fn node_at(node: u32) -> Node {
+    return pool.nodes[node - 1u];
+}
+
 fn rank_at(node: u32) -> u32 {
     return pool.nodes[node - 1u].rank;
 }

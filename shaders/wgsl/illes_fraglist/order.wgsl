@@ -5,8 +5,46 @@
 #import illes_fraglist::budget
 #import illes_fraglist::lists
 
-// Whether the list is in order. `false`: the budget is spent; the next dispatch resumes with what
-// has been merged.
+// What a list can be.
+const IN_ORDER: u32 = 0u;
+const OUT_OF_ORDER: u32 = 1u;
+// It has more nodes than an invocation can walk along.
+const TOO_LONG: u32 = 2u;
+
+// One walk along a list.
+struct Walk {
+    // The node to visit next.
+    node: u32,
+    // The rank of the one visited last, and whether none was lower than the one before it.
+    rank: u32,
+    rises: bool,
+}
+
+fn order_of(pixel: u32) -> u32 {
+    var walk = Walk(lists::head_of(pixel), 0u, true);
+    for (var four = 0u; four < budget::LIST_CAPACITY / 4u && walk.node != lists::END; four++) {
+        visit(&walk);
+        visit(&walk);
+        visit(&walk);
+        visit(&walk);
+    }
+    if walk.node != lists::END {
+        return TOO_LONG;
+    }
+    return select(OUT_OF_ORDER, IN_ORDER, walk.rises);
+}
+
+fn visit(walk: ptr<function, Walk>) {
+    if (*walk).node == lists::END {
+        return;
+    }
+    let visited = lists::node_at((*walk).node);
+    let rises = (*walk).rises && visited.rank >= (*walk).rank;
+    *walk = Walk(visited.next, visited.rank, rises);
+}
+
+// Whether the list, which was not, is in order. `false`: the budget is spent; the next dispatch resumes
+// with what has been merged.
 fn restore_order(pixel: u32) -> bool {
     while budget::can_continue() {
         if merge_runs(pixel) <= 1u {
@@ -14,18 +52,6 @@ fn restore_order(pixel: u32) -> bool {
         }
     }
     return false;
-}
-
-// Whether the list has more nodes than an invocation can walk along.
-fn is_too_long(pixel: u32) -> bool {
-    var node = lists::head_of(pixel);
-    for (var four = 0u; four < budget::LIST_CAPACITY / 4u && node != lists::END; four++) {
-        node = lists::after_or_end(node);
-        node = lists::after_or_end(node);
-        node = lists::after_or_end(node);
-        node = lists::after_or_end(node);
-    }
-    return node != lists::END;
 }
 
 // Two neighbouring runs on their way into one.

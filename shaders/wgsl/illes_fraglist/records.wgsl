@@ -1,36 +1,23 @@
 // The separators that a ray has yet to pass: ends and midpoints of effective intervals, ordered by
-// distance, in a local array of fixed size (section 6). The nearest is the last, so that taking it
-// is counting down.
+// distance, in a local array of fixed size, each with what it changes (section 6). The nearest is the
+// last, so that taking it is counting down.
 
+#import illes_fraglist::array_size::ARRAY_SIZE
 #import illes_fraglist::budget
+#import illes_fraglist::piece::Change
 
-// What a separator is to its ball.
-const ENTER: u32 = 0u;
-const MIDDLE: u32 = 1u;
-const LEAVE: u32 = 2u;
+// Records that may be in the array, from 3 to ARRAY_SIZE.
+@id(49) override capacity: u32 = ARRAY_SIZE;
 
-// The array's size as compiled: WGSL has no private arrays of overridable size.
-const ARRAY_CAPACITY: u32 = 96u;
-// Records that may be in it, from 3 to ARRAY_CAPACITY.
-@id(49) override capacity: u32 = ARRAY_CAPACITY;
-
-struct Record {
-    // Distance along the ray, scene units.
-    at: f32,
-    // Four times the ball's rank, plus the kind.
-    label: u32,
-}
-
-var<private> records: array<Record, ARRAY_CAPACITY>;
+// A record is a distance along the ray, scene units, and a change: apart, since places are found by
+// distances alone.
+var<private> distances: array<f32, ARRAY_SIZE>;
+var<private> changes: array<Change, ARRAY_SIZE>;
 var<private> count: u32;
 
-fn rank_of(record: Record) -> u32 {
-    return record.label >> 2u;
-}
-
-fn kind_of(record: Record) -> u32 {
-    return record.label & 3u;
-}
+// While a ball's records are inserted: how many are to come, and how many others are where they were.
+var<private> to_come: u32;
+var<private> unmoved: u32;
 
 // Whether the separators of one more ball fit.
 fn has_capacity() -> bool {
@@ -38,28 +25,31 @@ fn has_capacity() -> bool {
 }
 
 fn nearest() -> f32 {
-    return records[count - 1u].at;
+    return distances[count - 1u];
 }
 
-fn take() -> Record {
+fn take() -> Change {
     count--;
-    return records[count];
+    return changes[count];
 }
 
-// Inserts the separators of a ball from the kind `first` on, at rising distances. What is nearer is
-// moved once, by as many indices as are still to be filled behind it.
-fn insert(rank: u32, at: vec3<f32>, first: u32) {
-    var gap = 3u - first;
-    var unmoved = count;
-    count += gap;
-    for (var kind = first; kind <= LEAVE; kind++) {
-        while unmoved > 0u && records[unmoved - 1u].at <= at[kind] {
-            unmoved--;
-            records[unmoved + gap] = records[unmoved];
-            budget::spend(1u);
-        }
-        gap--;
-        records[unmoved + gap] = Record(at[kind], 4u * rank + kind);
+// Makes room for so many records of a ball, to be inserted at rising distances.
+fn make_room(records: u32) {
+    to_come = records;
+    unmoved = count;
+    count += records;
+}
+
+// What is nearer is moved once, by as many indices as are still to be filled behind it.
+fn insert(at: f32, change: Change) {
+    while unmoved > 0u && distances[unmoved - 1u] <= at {
+        unmoved--;
+        distances[unmoved + to_come] = distances[unmoved];
+        changes[unmoved + to_come] = changes[unmoved];
+        budget::spend(1u);
     }
-    budget::spend(3u);
+    to_come--;
+    distances[unmoved + to_come] = at;
+    changes[unmoved + to_come] = change;
+    budget::spend(1u);
 }

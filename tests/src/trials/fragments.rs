@@ -11,7 +11,8 @@ use super::canaries::{Spoil, rejects_spoilt};
 use super::fixtures::fixture;
 use super::{SIZE, draw, on_gpu, renderer, terms_of, view_of};
 
-const METHOD: &str = "illes";
+/// The published running sum, and the same cubics rebuilt.
+const METHODS: [&str; 2] = ["illes", "illes-rebuilt"];
 const SCENE: &str = "random-200";
 
 pub(super) fn trials() -> Vec<Trial> {
@@ -20,29 +21,29 @@ pub(super) fn trials() -> Vec<Trial> {
         ("shifted_by_a_row", |hits| hits.rotate_right(SIZE.0 as usize)),
         ("moved_by_a_tenth", |hits| hits.iter_mut().for_each(|hit| hit.t *= 1.1)),
     ];
-    let mut trials: Vec<_> = spoilt
-        .into_iter()
-        .map(|(name, spoil)| {
-            on_gpu(format!("fragments::cubic::rejects_{name}"), move |gpu| {
-                rejects_spoilt(gpu, SCENE, METHOD, spoil)
-            })
-        })
-        .collect();
-    trials.push(on_gpu(
-        "fragments::cubic::most_rays_are_promised".to_owned(),
-        most_rays_are_promised,
-    ));
-    for (method, is_marked) in [("illes", true), ("illes-exact", true), ("illes-robust", false)] {
+    let mut trials = Vec::new();
+    for method in METHODS {
+        for (name, spoil) in spoilt {
+            trials.push(on_gpu(format!("fragments::{method}::rejects_{name}"), move |gpu| {
+                rejects_spoilt(gpu, SCENE, method, spoil)
+            }));
+        }
+    }
+    trials.push(on_gpu("fragments::illes-rebuilt::most_rays_are_promised".to_owned(), |gpu| {
+        most_rays_are_promised(gpu, "illes-rebuilt")
+    }));
+    let marked = [("illes", true), ("illes-rebuilt", true), ("illes-exact", true)];
+    for (method, is_marked) in marked.into_iter().chain([("illes-robust", false)]) {
         let name = format!("fragments::overlap_beyond_capacity::{method}");
         trials.push(on_gpu(name, move |gpu| overlap_beyond_capacity(gpu, method, is_marked)));
     }
     trials
 }
 
-/// A promise that holds for few rays is none.
-fn most_rays_are_promised(gpu: &Gpu) -> Result<(), Failed> {
+/// A promise that holds for few rays is none: that of a running sum, away from the eye.
+fn most_rays_are_promised(gpu: &Gpu, method: &str) -> Result<(), Failed> {
     let fixture = fixture(gpu, SCENE)?;
-    let promise = terms_of(METHOD)?.promise;
+    let promise = terms_of(method)?.promise;
     let rays = fixture.judge.rays().iter().zip(fixture.judge.truths());
     let promised =
         rays.filter(|(ray, truth)| promise.holds(&fixture.scene.scene, ray, truth)).count();

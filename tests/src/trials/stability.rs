@@ -52,6 +52,7 @@ const LARGEST: &[(&str, &[&str])] = &[
     ("kanamori-robust", &["coincident", "overlapping"]),
     ("illes-robust", &["coincident", "overlapping"]),
     ("illes", &["coincident", "overlapping"]),
+    ("illes-rebuilt", &["coincident", "overlapping"]),
     ("illes-exact+30", &["common-entry"]),
 ];
 

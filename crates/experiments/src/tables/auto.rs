@@ -51,7 +51,8 @@ fn plan(options: &Options, scenes: &[String]) -> Vec<PlannedScene> {
 
 /// Who can be chosen.
 fn configurations(extent: Extent) -> Vec<Configuration> {
-    const FEW: [&str; 4] = ["fbvh-certified", "illes", "illes, array 24", "illes-exact"];
+    const FEW: [&str; 4] =
+        ["fbvh-certified", "illes-rebuilt", "illes-rebuilt, array 24", "illes-exact"];
     let takes_part = |configuration: &Configuration| {
         extent == Extent::Whole || FEW.contains(&configuration.name.as_str())
     };
@@ -218,7 +219,7 @@ mod tests {
         assert_eq!(measured.choices[0].is_kept(), Some(true));
         // The cubic is out where a thousandth of a radius is allowed.
         let strict = measured.choices[0].choice.as_ref().expect("one will do");
-        assert!(strict.left_out.iter().any(|(name, _)| name == "illes"), "{strict:?}");
+        assert!(strict.left_out.iter().any(|(name, _)| name == "illes-rebuilt"), "{strict:?}");
 
         let back = read_back(&measurements);
         assert_eq!(back.scenes.len(), 2);

@@ -27,8 +27,8 @@ pub enum Promise {
         /// K, the balls that a list holds.
         list_capacity: usize,
     },
-    /// Illés and Szécsi: rays whose truth is clearer than the cubic is near the kernel (section 3);
-    /// with exact polynomials every ray. Section 6: more separators than a ray's array holds are
+    /// Illés and Szécsi: rays whose truth is clearer than the cubic is near the kernel (section 3), and
+    /// than the rounding of a running sum (section 4); with exact polynomials every ray. Section 6: more separators than a ray's array holds are
     /// passed too early.
     Fragments {
         /// The polynomial between two separators.

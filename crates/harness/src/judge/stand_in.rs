@@ -13,7 +13,7 @@ use metaball_core::{Kernel, Metaball, Ray, Scene};
 pub struct StandIn {
     chords: Vec<Chord>,
     deviation: Deviation,
-    is_absolute: bool,
+    is_running: bool,
 }
 
 /// A ball's interval of a ray.
@@ -33,7 +33,7 @@ impl StandIn {
         (!piece.is_exact()).then(|| Self {
             chords: chords(scene, ray),
             deviation: cubic_deviation(scene.kernel()),
-            is_absolute: piece == Piece::AbsoluteCubic,
+            is_running: piece == Piece::Running,
         })
     }
 
@@ -63,7 +63,7 @@ impl StandIn {
     /// itself off by a few: the sum of the four loses below 600 roundings of 2⁻²⁴ times γ(s/Q)³ for
     /// each of a ball's three Δw, and what is lost stays.
     fn rounding_at(&self, t: f64) -> f64 {
-        if !self.is_absolute {
+        if !self.is_running {
             return 0.0;
         }
         let before = self.chords.iter().filter(|chord| chord.middle - 1.001 * chord.half <= t);
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn deviations_add_up() {
         let ray = Ray::new(Vec3::ZERO, Vec3::Z);
-        let stand_in = StandIn::new(Piece::Cubic, &scene(3), &ray).expect("a cubic");
+        let stand_in = StandIn::new(Piece::Rebuilt, &scene(3), &ray).expect("a cubic");
         let (least, greatest) = stand_in.at(4.5);
         assert!((-0.01..=0.0).contains(&least), "{least}");
         assert!((greatest - 3.0 / 16.0).abs() < 4e-3, "{greatest}");

@@ -111,7 +111,7 @@ impl RasterGather {
         };
         frame.render("gather", gather, |pass| {
             bind(pass);
-            pass.set_bind_group(3, &canvas.bind_group, &[]);
+            pass.set_bind_group(3, &canvas.turns[0].bind_group, &[]);
             pass.set_pipeline(&self.gather);
             pass.draw(0..4, 0..balls.len());
         });

@@ -4,22 +4,40 @@
 
 #import core::scene::scene
 #import illes_fraglist::active
-#import illes_fraglist::balls::ball_of_rank
+#import illes_fraglist::balls::{ball_of_rank, Segment}
 #import illes_fraglist::budget
 #import illes_fraglist::cubic_root::NO_ROOT
 #import illes_fraglist::polynomial::{add_kernel, constant, Polynomial}
 #import illes_fraglist::polynomial_root::first_root_of_polynomial
-#import illes_fraglist::records::{ENTER, LEAVE}
 #import strength::strength
 #import work::{count_evaluations, count_leaf_test}
 
+struct Change {
+    // Of illes_fraglist::active.
+    label: u32,
+}
+
+struct Changes {
+    enter: Change,
+    middle: Change,
+    leave: Change,
+}
+
+fn changes_of(rank: u32, segment: Segment, radius: f32) -> Changes {
+    let enter = Change(active::label_of(rank, active::ENTER));
+    let middle = Change(active::label_of(rank, active::MIDDLE));
+    return Changes(enter, middle, Change(active::label_of(rank, active::LEAVE)));
+}
+
 // A ball's weight is its strength.
-fn pass_separator(rank: u32, kind: u32, direction: vec3<f32>) {
-    if kind == ENTER {
+fn pass_separator(change: Change, direction: vec3<f32>) {
+    let rank = active::rank_of(change.label);
+    let kind = active::kind_of(change.label);
+    if kind == active::ENTER {
         var ball = active::ball_along(rank, direction);
         ball.weight = strength(ball_of_rank[rank]);
         active::enter(ball);
-    } else if kind == LEAVE {
+    } else if kind == active::LEAVE {
         active::leave(rank);
     }
 }
@@ -36,4 +54,15 @@ fn first_root(start: f32, end: f32) -> f32 {
     budget::spend(active::count);
     let root = first_root_of_polynomial(sum);
     return select(NO_ROOT, start + root * (end - start), root >= 0.0);
+}
+
+// Nothing: the active balls follow from the list.
+fn kept_sum() -> vec4<f32> {
+    return vec4(0.0);
+}
+
+fn restore_sum(sum: vec4<f32>) {}
+
+fn can_wait_before(at: f32, position: f32) -> bool {
+    return true;
 }

@@ -1,0 +1,3 @@
+// For 4 balls.
+
+const ARRAY_SIZE: u32 = 12u;

@@ -1,0 +1,3 @@
+// For 16 balls.
+
+const ARRAY_SIZE: u32 = 48u;
