@@ -1,9 +1,10 @@
 //! A thin front: sets the machine up, then runs cargo or the program `metaball`.
 //!
-//! `cargo xtask test` passes the tests; all other arguments go to the binary `metaball` in
-//! release mode: `cargo xtask compare`, `cargo xtask render molecule`.
+//! `cargo xtask test` passes the tests, `cargo xtask bench` times the benches; all other arguments go
+//! to the binary `metaball` in release mode: `cargo xtask compare`, `cargo xtask render molecule`.
 
 mod adapter;
+mod bench;
 mod run;
 mod test;
 
@@ -11,6 +12,9 @@ use std::process::ExitCode;
 
 const HELP: &str = "\
 cargo xtask test                 formatting, lints, all tests, packages and documentation
+cargo xtask bench [...]          times the criterion benches, or those that a filter names;
+                                 --against COMMIT builds that commit beside and times both in
+                                 turn, --rounds N (5) times; samples go to out/bench/samples.csv
 cargo xtask setup                makes sure that a Vulkan adapter exists, and does nothing else
 cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` in release mode:
                                  compare, score, diff, chart, stability, certify, render,
@@ -29,6 +33,7 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
         Some("setup") => adapter::ensure().map(|_| ()),
+        Some("bench") => bench::run(&arguments[1..]),
         Some("test") => test::run(&arguments[1..]),
         Some("help" | "--help" | "-h") => {
             run::say(HELP);
