@@ -26,7 +26,8 @@ pub(crate) enum TablesCommand {
     /// Illés and Szécsi: table 1 at 1024 × 768 pixels, how its phases grow, lists, figure 7, errors by
     /// kernel, memory.
     Illes(TimedTablesArgs),
-    /// No paper: fbvh-certified on the CPU against POV-Ray's blob, time and error, primary rays and lit
+    /// No paper: fbvh-certified on the CPU against programs that one would take instead (POV-Ray's blob, VTK
+    /// with Mitsuba, Embree; what is missing is skipped, and how to install it said), primary rays and lit
     /// pictures, power kernel α = 2.
     Peers {
         /// Known names, generators, or files; five scenes of 5,547 to 128,000 balls when left out.

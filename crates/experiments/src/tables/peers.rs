@@ -1,12 +1,17 @@
-//! The command `tables peers`: the certified tree on the CPU against what a user would take instead,
-//! POV-Ray's `blob`, whose field is the power kernel's with α = 2.
+//! The command `tables peers`: the certified tree on the CPU against what a user would take instead, of the
+//! same field, the power kernel's with α = 2: POV-Ray's `blob`, a mesh, and a gather on Embree.
 
+mod array_job;
+mod contender;
 pub mod effect;
+mod embree;
 pub mod lamp_truth;
 pub mod lit;
 mod lit_table;
+mod mesh;
 mod page;
 pub mod povray;
+pub mod programs;
 pub mod run;
 
 use std::path::PathBuf;
@@ -14,7 +19,7 @@ use std::path::PathBuf;
 use metaball_core::Kernel;
 use serde::{Deserialize, Serialize};
 
-use self::povray::{INSTALL, Povray};
+use self::programs::Programs;
 use self::run::{Measured, PlannedScene, Traced};
 use crate::console::{self, ProgressBar};
 use crate::extent::Extent;
@@ -27,6 +32,10 @@ use harness::numbers::{decimal, grouped, small};
 
 /// Name and version of the format of `peers.json`.
 pub const SCHEMA: &str = "metaball-tables-peers/1";
+
+/// Resolutions of meshes: cells along the longest side of their grids.
+const CELLS: [u32; 3] = [64, 128, 256];
+const QUICK_CELLS: [u32; 3] = [16, 32, 64];
 
 /// What to measure.
 #[derive(Debug, Clone)]
@@ -43,17 +52,18 @@ pub struct Options {
 
 impl Options {
     fn plan(&self) -> Vec<PlannedScene> {
-        let (scenes, size, [rounds, lit_rounds]): (&[&str], _, _) = match self.extent {
-            Extent::Quick => (&["scattered:300", "pool:300"], (64, 48), [2, 1]),
+        let (scenes, size, [rounds, lit_rounds], cells): (&[&str], _, _, _) = match self.extent {
+            Extent::Quick => (&["scattered:300", "pool:300"], (64, 48), [2, 1], QUICK_CELLS),
             Extent::Whole => (
                 &["scattered:10000", "scattered-100k", "pool-10k", "tornado-128k", "molecule"],
                 (640, 480),
                 [5, 3],
+                CELLS,
             ),
         };
         let size = self.size.unwrap_or(size);
-        let specs = named_or(&self.scenes, scenes);
-        specs.into_iter().map(|spec| PlannedScene { spec, size, rounds, lit_rounds }).collect()
+        let planned = |spec| PlannedScene { spec, size, rounds, lit_rounds, cells };
+        named_or(&self.scenes, scenes).into_iter().map(planned).collect()
     }
 }
 
@@ -63,10 +73,13 @@ pub struct Measurements {
     /// Its format is [`SCHEMA`].
     #[serde(flatten)]
     pub heading: Heading,
-    /// Threads of either tracer.
+    /// Threads of each tracer.
     pub threads: usize,
-    /// What the peer calls itself; `null` where it is not installed.
+    /// What POV-Ray calls itself; `null` where it is not installed.
     pub peer: Option<String>,
+    /// What all peers call themselves that are installed; none in records older than this.
+    #[serde(default)]
+    pub versions: Vec<String>,
     /// The scenes, in the order measured.
     pub scenes: Vec<SceneResult<Measured>>,
 }
@@ -76,11 +89,9 @@ pub struct Measurements {
 /// # Errors
 /// When a file cannot be written, or nothing could be measured.
 pub fn tables(options: &Options) -> anyhow::Result<()> {
-    let peer = Povray::find()?;
-    if peer.is_none() {
-        console::note(&absent());
-    }
-    publish(&options.out, &options.scenes, || Ok(measure(&options.plan(), peer.as_ref())))
+    let programs = Programs::find()?;
+    programs.absent().iter().for_each(|remark| console::note(remark));
+    publish(&options.out, &options.scenes, || Ok(measure(&options.plan(), &programs)))
 }
 
 impl Report for Measurements {
@@ -102,23 +113,16 @@ impl Report for Measurements {
     }
 }
 
-fn absent() -> String {
-    format!("POV-Ray is not installed: its rows are skipped. {INSTALL}")
-}
-
-fn measure(plan: &[PlannedScene], peer: Option<&Povray>) -> Measurements {
+fn measure(plan: &[PlannedScene], programs: &Programs) -> Measurements {
     let progress = ProgressBar::new(plan.iter().map(PlannedScene::steps).sum());
     let measured = |planned: &PlannedScene| {
-        let result = run::measure(planned, peer, &progress);
+        let result = run::measure(planned, programs, &progress);
         SceneResult::new(&planned.spec, planned.size, result)
     };
     let scenes: Vec<_> = plan.iter().map(measured).collect();
     drop(progress);
 
-    let mut remarks = Vec::new();
-    if peer.is_none() {
-        remarks.push(absent());
-    }
+    let mut remarks = programs.absent();
     let replaced: Vec<_> = scenes.iter().filter_map(replaced_kernel).collect();
     if !replaced.is_empty() {
         remarks.push(format!(
@@ -129,7 +133,8 @@ fn measure(plan: &[PlannedScene], peer: Option<&Povray>) -> Measurements {
     Measurements {
         heading: Heading::new(SCHEMA, None, remarks),
         threads: run::THREADS,
-        peer: peer.map(|peer| peer.version().to_owned()),
+        peer: programs.povray.as_ref().map(|povray| povray.version().to_owned()),
+        versions: programs.versions(),
         scenes,
     }
 }
@@ -139,7 +144,7 @@ fn replaced_kernel(scene: &SceneResult<Measured>) -> Option<&str> {
     (measured.kernel != Kernel::QUARTIC.to_string()).then_some(scene.scene.as_str())
 }
 
-/// Three rows a scene: ours, the peer's, and what the oracle says; or one with a reason.
+/// A row for each tracer of a scene, and what the oracle says; or one with a reason.
 fn table(scenes: &[SceneResult<Measured>]) -> Table {
     let columns = [
         Column::text("scene"),
@@ -147,8 +152,10 @@ fn table(scenes: &[SceneResult<Measured>]) -> Table {
         Column::text("tracer"),
         Column::number("prepare").of("ms"),
         Column::number("trace").of("ms"),
+        Column::number("picture").of("ms"),
         Column::number("CPU").of("ms"),
-        Column::number("times as fast"),
+        Column::number("trace").of("over ours"),
+        Column::number("picture").of("over ours"),
         Column::number("hits"),
         Column::number("missed"),
         Column::number("phantom"),
@@ -168,38 +175,47 @@ fn rows_of(scene: &SceneResult<Measured>) -> Vec<Vec<String>> {
         Err(reason) => return vec![head("", reason)],
     };
     let balls = grouped(measured.balls);
-    let ratio = measured.times_as_fast().map_or_else(String::new, decimal);
-    let mut ours = head(&balls, "fbvh-certified");
-    ours.extend(cells(&measured.ours, ratio));
-    let peer = match &measured.peer {
-        Ok(traced) => {
-            let mut row = head(&balls, "POV-Ray blob");
-            row.extend(cells(traced, String::new()));
-            row
-        }
-        Err(reason) => head(&balls, &format!("POV-Ray blob: {reason}")),
+    let row = |name: &str, traced: &Traced, over_ours: [String; 2]| {
+        let mut row = head(&balls, name);
+        row.extend(cells(traced, over_ours));
+        row
     };
-    vec![ours, peer, oracle(head(&balls, "oracle"), measured)]
+    let ours = &measured.ours;
+    let mut rows = vec![row("fbvh-certified", ours, Default::default())];
+    rows.extend(measured.peers().map(|(name, peer)| match peer {
+        Ok(traced) => row(name, traced, over(traced, ours)),
+        Err(reason) => head(&balls, &format!("{name}: {reason}")),
+    }));
+    rows.push(oracle(head(&balls, "oracle"), measured));
+    rows
+}
+
+/// A peer's times over ours: for tracing, and from the arrays to the picture.
+fn over(peer: &Traced, ours: &Traced) -> [String; 2] {
+    let trace = peer.trace_ms.median / ours.trace_ms.median;
+    [trace, peer.picture_ms() / ours.picture_ms()].map(decimal)
 }
 
 /// The oracle's row: what the others are held against.
 fn oracle(mut row: Vec<String>, measured: &Measured) -> Vec<String> {
     let accuracy = &measured.ours.accuracy;
-    row.extend(std::iter::repeat_n(String::new(), 4));
+    row.extend(std::iter::repeat_n(String::new(), 6));
     row.push(grouped(accuracy.oracle_hits));
     row.push(format!("{} of {} rays ambiguous", accuracy.ambiguous, grouped(accuracy.rays)));
     row
 }
 
 /// The numbers of a tracer.
-fn cells(traced: &Traced, ratio: String) -> [String; 10] {
+fn cells(traced: &Traced, [trace, picture]: [String; 2]) -> [String; 12] {
     let accuracy = &traced.accuracy;
     let dash = || "–".to_owned();
     [
         decimal(traced.prepare_ms.median),
         decimal(traced.trace_ms.median),
+        decimal(traced.picture_ms()),
         traced.cpu_ms.map_or_else(dash, decimal),
-        ratio,
+        trace,
+        picture,
         grouped(traced.hits),
         grouped(accuracy.false_negative),
         grouped(accuracy.false_positive),
@@ -221,35 +237,70 @@ mod tests {
         Options { scenes: Vec::new(), extent, size: None, out: PathBuf::new() }.plan()
     }
 
-    /// Ours is right, and so is the peer on scenes as small as these: an independent program finds
-    /// the same surface.
+    /// Ours is right, and so is POV-Ray on scenes as small as these: an independent program finds the
+    /// same surface.
     #[test]
     fn a_quick_run_fills_every_row() {
-        let Some(peer) = Povray::find().expect("it runs where it is there") else {
-            console::note(&format!("skipped: {}", absent()));
-            return;
-        };
-        let measurements = measure(&quick(), Some(&peer));
+        let programs = Programs::find().expect("they run where they are there");
+        programs.absent().iter().for_each(|remark| console::note(&format!("skipped: {remark}")));
+        let measurements = measure(&quick(), &programs);
         for scene in &measurements.scenes {
             let measured = scene.result.as_ref().expect("measured");
-            let traced = measured.peer.as_ref().expect("traced");
             assert_eq!(measured.ours.accuracy.wrong_verdicts(), 0, "{scene:?}");
-            assert_eq!(traced.accuracy.wrong_verdicts(), 0, "{scene:?}");
-            assert!(traced.hits > 100, "{scene:?}");
-            // Two channels of 16 bits, the fine one wrapping 4,096 times, encode the depth to 4e-9 of
-            // the range; what is left is its own error and an f32's.
-            assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-5, "{scene:?}");
-            assert_eq!(traced.trace_ms.samples.len(), 2);
-            for pair in &measured.lit {
-                assert_lit_alike(pair);
+            if programs.povray.is_some() {
+                assert_povray(measured);
             }
-            assert_eq!(measured.lit.len(), LitEffect::ALL.len());
+            let others: Vec<_> = measured.others.iter().map(|peer| &peer.result).collect();
+            if programs.mesh.is_some() {
+                assert_meshes(&others[..3]);
+            }
+            if programs.embree.is_some() {
+                assert_gathers(&others[3..]);
+            }
+            assert_eq!(others.len(), 5);
         }
         let back = read_back(&measurements);
         assert_eq!((back.heading.provenance.schema.as_str(), back.scenes.len()), (SCHEMA, 2));
         let page = page::page(&measurements);
-        assert_stands_alone(&page, &["skipped", "/tmp"]);
-        assert!(page.contains("POV-Ray 3"));
+        assert_stands_alone(&page, &["/tmp"]);
+        assert_eq!(page.contains("such rows are skipped"), !programs.absent().is_empty());
+        assert!(programs.versions().iter().all(|version| page.contains(version)), "{page}");
+    }
+
+    fn assert_povray(measured: &Measured) {
+        let traced = measured.peer.as_ref().expect("traced");
+        assert_eq!(traced.accuracy.wrong_verdicts(), 0, "{traced:?}");
+        assert!(traced.hits > 100, "{traced:?}");
+        // Two channels of 16 bits, the fine one wrapping 4,096 times, encode the depth to 4e-9 of
+        // the range; what is left is its own error and an f32's.
+        assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-5, "{traced:?}");
+        assert_eq!(traced.trace_ms.samples.len(), 2);
+        for pair in &measured.lit {
+            assert_lit_alike(pair);
+        }
+        assert_eq!(measured.lit.len(), LitEffect::ALL.len());
+    }
+
+    /// A finer mesh is nearer to the surface, and the finest is still told from it.
+    fn assert_meshes(meshes: &[&Result<Traced, String>]) {
+        let error = |mesh: &&Result<Traced, String>| {
+            let traced = mesh.as_ref().expect("traced");
+            assert!(traced.hits > 100, "{traced:?}");
+            traced.accuracy.rel_rms_t.expect("hits")
+        };
+        let errors: Vec<_> = meshes.iter().map(error).collect();
+        assert!(errors[0] > 1.5 * errors[1] && errors[1] > 1.5 * errors[2], "{errors:?}");
+        assert!(errors[2] > 1e-5, "{errors:?}");
+    }
+
+    /// Embree gathers the same balls, and the same search along them finds the same roots.
+    fn assert_gathers(gathers: &[&Result<Traced, String>]) {
+        for gather in gathers {
+            let traced = gather.as_ref().expect("traced");
+            assert_eq!(traced.accuracy.wrong_verdicts(), 0, "{traced:?}");
+            assert!(traced.accuracy.rel_rms_t.expect("hits") < 1e-6, "{traced:?}");
+            assert!(traced.accuracy.normal_degrees.is_some(), "{traced:?}");
+        }
     }
 
     /// Shadows fall on the same pixels, and mirrors nearly so: POV-Ray's scatter as much light at
@@ -270,14 +321,15 @@ mod tests {
         }
     }
 
-    /// Without the peer ours and the oracle's rows remain, and it is said what is missing.
+    /// Without peers ours and the oracle's rows remain, and it is said what is missing.
     #[test]
-    fn an_absent_peer_is_skipped_visibly() {
-        let measurements = measure(&quick()[..1], None);
+    fn absent_peers_are_skipped_visibly() {
+        let measurements = measure(&quick()[..1], &Programs::default());
         let Table { columns, rows, .. } = table(&measurements.scenes);
-        assert_eq!(rows.len(), 3);
-        assert!(rows[0].len() == columns.len() && rows[0][6].is_empty(), "{rows:?}");
-        assert!(rows[1][2].contains("not installed") && rows[2][2] == "oracle", "{rows:?}");
+        assert_eq!(rows.len(), 8);
+        assert!(rows[0].len() == columns.len() && rows[0][7].is_empty(), "{rows:?}");
+        assert!(rows[1..7].iter().all(|row| row[2].ends_with(": not installed")), "{rows:?}");
+        assert_eq!(rows[7][2], "oracle");
         let Table { columns, rows, .. } = lit_table::table(&measurements.scenes);
         assert_eq!(rows.len(), 2 * LitEffect::ALL.len());
         for pair in rows.chunks(2) {
@@ -285,15 +337,17 @@ mod tests {
             assert!(pair[1][3].contains("not installed"), "{rows:?}");
         }
         let page = page::page(&measurements);
-        assert!(page.contains("apt-get install povray") && page.contains("skipped"), "{page}");
+        for command in ["apt-get install povray", "pip install numpy==", "libembree-dev"] {
+            assert!(page.contains(command), "{page}");
+        }
+        assert!(page.contains("such rows are skipped"), "{page}");
     }
 
     /// What cannot be loaded is a row with a reason.
     #[test]
     fn a_scene_that_fails_is_named() {
-        let planned =
-            PlannedScene { spec: "nosuch".to_owned(), size: (4, 3), rounds: 1, lit_rounds: 1 };
-        let rows = table(&measure(&[planned], None).scenes).rows;
+        let planned = PlannedScene { spec: "nosuch".to_owned(), ..quick()[0].clone() };
+        let rows = table(&measure(&[planned], &Programs::default()).scenes).rows;
         assert!(rows.len() == 1 && rows[0][2].contains("nosuch"), "{rows:?}");
     }
 }

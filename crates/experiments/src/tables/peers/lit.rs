@@ -186,6 +186,7 @@ mod tests {
             size: (96, 72),
             rounds: 1,
             lit_rounds: 1,
+            cells: [8; 3],
         };
         let (scene, view) = ours::load(&planned).expect("a scene");
         let effects = LitEffect::Shadows.effects(view.camera()).expect("effects");

@@ -6,9 +6,12 @@ use crate::page::{self, fact};
 
 /// The page; needs no other file and no network.
 pub(super) fn page(measurements: &Measurements) -> String {
-    let peer = measurements.peer.as_deref().unwrap_or("not installed");
+    let versions = match &measurements.versions[..] {
+        [] => "none installed".to_owned(),
+        versions => versions.join("; "),
+    };
     let facts = measurements.heading.facts()
-        + &fact("Peer", &escape(peer))
+        + &fact("Peers", &escape(&versions))
         + &fact("Threads", &measurements.threads.to_string());
     let parts = [
         ("facts", facts),

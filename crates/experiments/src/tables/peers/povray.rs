@@ -15,6 +15,9 @@ use anyhow::Context;
 pub const INSTALL: &str = "To install it: `apt-get install povray` (Debian, Ubuntu), `brew install \
                            povray` (macOS), or its sources; `povray` has to be on the PATH.";
 
+/// Its primary rays in tables.
+pub(super) const NAME: &str = "POV-Ray blob";
+
 const PROGRAM: &str = "povray";
 
 /// The installed program.

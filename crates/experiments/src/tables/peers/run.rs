@@ -1,4 +1,4 @@
-//! Both tracers on one scene, in turns, and both against the oracle; primary rays, then lit pictures.
+//! All tracers on one scene, in turns, and all against the oracle; primary rays, then lit pictures.
 
 use std::fs;
 use std::time::Instant;
@@ -12,9 +12,10 @@ use picture_files::HitImage;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 
+use super::contender::{Contender, Times};
 use super::lit::{self, LitPair};
-use super::povray::Povray;
-use super::povray::primary::{Primary, Times};
+use super::povray;
+use super::programs::{Named, Programs};
 use crate::console::ProgressBar;
 use harness::imported::accuracy_of;
 use harness::measure::milliseconds;
@@ -22,10 +23,10 @@ use harness::record::Samples;
 use harness::reference::Reference;
 use harness::score::{Accuracy, score};
 
-/// Threads of either tracer.
+/// Threads of each tracer.
 pub const THREADS: usize = 2;
 
-/// A scene for both tracers.
+/// A scene for all tracers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlannedScene {
     /// What to load.
@@ -36,10 +37,12 @@ pub struct PlannedScene {
     pub rounds: usize,
     /// Times that each draws the picture in each light.
     pub lit_rounds: usize,
+    /// Cells of meshes' grids along their longest sides.
+    pub cells: [u32; 3],
 }
 
 impl PlannedScene {
-    /// Steps of progress: the rounds, the peer's depths, the oracle, the lit pictures.
+    /// Steps of progress: the rounds, the peers' hits, the oracle, the lit pictures.
     pub(super) fn steps(&self) -> u64 {
         self.rounds as u64 + 2 + lit::steps(self)
     }
@@ -56,26 +59,40 @@ pub struct Measured {
     pub ours: Traced,
     /// POV-Ray, or why there is nothing of it.
     pub peer: Result<Traced, String>,
+    /// The other peers; none in records older than they.
+    #[serde(default)]
+    pub others: Vec<NamedPeer>,
     /// Lit pictures; none in records older than they.
     #[serde(default)]
     pub lit: Vec<LitPair>,
 }
 
+/// A peer by its name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NamedPeer {
+    /// In tables.
+    pub name: String,
+    /// What it did, or why there is nothing of it.
+    pub result: Result<Traced, String>,
+}
+
 impl Measured {
-    /// The peer's time for tracing over ours; medians.
-    pub fn times_as_fast(&self) -> Option<f64> {
-        let peer = self.peer.as_ref().ok()?;
-        Some(peer.trace_ms.median / self.ours.trace_ms.median)
+    /// All peers with their names, POV-Ray first.
+    pub fn peers(&self) -> impl Iterator<Item = (&str, &Result<Traced, String>)> {
+        let others = self.others.iter().map(|peer| (peer.name.as_str(), &peer.result));
+        std::iter::once((povray::NAME, &self.peer)).chain(others)
     }
 }
 
 /// A tracer's times and errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Traced {
-    /// Milliseconds before the first ray, each round: ours builds a tree, the peer parses a file.
+    /// Milliseconds before the first ray, each round: ours builds a tree, POV-Ray parses a file, a mesh
+    /// is made of a grid and a tree of it, Embree builds its own.
     pub prepare_ms: Samples,
     /// Milliseconds from the first ray to the last, each round, by the wall's clock. Ours makes the
-    /// rays and finds hits and normals; the peer makes the rays, finds hits and colours them.
+    /// rays and finds hits and normals; POV-Ray makes the rays, finds hits and colours them; the others
+    /// take the rays from memory and find hits and normals.
     pub trace_ms: Samples,
     /// Milliseconds of processor time for tracing, summed over the threads, the mean over the
     /// rounds; `null` where the system does not say, or all rounds together are less than a tenth of
@@ -83,18 +100,26 @@ pub struct Traced {
     pub cpu_ms: Option<f64>,
     /// Pixels that hit.
     pub hits: usize,
-    /// Comparison with the oracle; without normals for the peer.
+    /// Comparison with the oracle; without normals for POV-Ray.
     pub accuracy: Accuracy,
 }
 
-/// Measures both on a scene.
+impl Traced {
+    /// Milliseconds from the arrays to the picture: the median over the rounds.
+    pub fn picture_ms(&self) -> f64 {
+        let rounds = self.prepare_ms.samples.iter().zip(&self.trace_ms.samples);
+        Samples::new(rounds.map(|(prepare, trace)| prepare + trace).collect()).median
+    }
+}
+
+/// Measures all on a scene.
 ///
 /// # Errors
-/// When the scene does not load or no tree of it can be built. What goes wrong with the peer is in
+/// When the scene does not load or no tree of it can be built. What goes wrong with a peer is in
 /// the result.
 pub fn measure(
     planned: &PlannedScene,
-    program: Option<&Povray>,
+    programs: &Programs,
     progress: &ProgressBar,
 ) -> anyhow::Result<Measured> {
     let bench = load(&planned.spec, &Overrides::default())?;
@@ -104,40 +129,78 @@ pub fn measure(
     let pool = ThreadPoolBuilder::new().num_threads(THREADS).build().context("no threads")?;
 
     let mut ours = Rounds::default();
-    let mut theirs = Rounds::default();
-    let job = program.context("not installed").and_then(|_| Primary::new(&scene, &view, THREADS));
-    let mut job = job.map_err(|error| format!("{error:#}"));
+    let contenders = programs.contenders(planned, &scene, &view);
+    let mut peers: Vec<_> = contenders.into_iter().map(PeerRounds::new).collect();
     let mut hits = Vec::new();
     for round in 1..=planned.rounds {
         progress.stage(format!("{}: round {round} of {}", planned.spec, planned.rounds));
         hits = pool.install(|| trace(&scene, &view, &mut ours))?;
-        if let Ok(drawn) = &job {
-            match drawn.time() {
-                Ok(times) => theirs.add_peer(times),
-                Err(error) => job = Err(format!("{error:#}")),
-            }
-        }
+        peers.iter_mut().for_each(PeerRounds::add);
         progress.advance(1);
     }
-    progress.stage(format!("{}: depths", planned.spec));
-    let depths = job.and_then(|job| job.hits().map_err(|error| format!("{error:#}")));
+    progress.stage(format!("{}: the peers' hits", planned.spec));
+    let drawn: Vec<_> = peers.into_iter().map(PeerRounds::finish).collect();
     progress.advance(1);
 
     progress.stage(format!("{}: oracle", planned.spec));
-    let (images, rays) = (images(&hits, &depths), view.rays());
+    let (images, rays) = (images(&hits, &drawn), view.rays());
     let reference = reference(&scene, &rays, planned.size, &images, &pool);
     progress.advance(1);
     let ours = ours.summary(&hits, score(&reference, &hits)?);
-    let peer = match depths {
-        Ok(image) => Ok(theirs.summary(&image.hits, accuracy_of(&image, &reference)?)),
-        Err(reason) => Err(reason),
-    };
-    let lit = lit::measure(planned, program, &pool, progress)?;
-    Ok(Measured { balls: scene.len(), kernel, ours, peer, lit })
+    let mut others = Vec::new();
+    for Drawn { name, result } in drawn {
+        let result = match result {
+            Ok((rounds, image)) => {
+                Ok(rounds.summary(&image.hits, accuracy_of(&image, &reference)?))
+            }
+            Err(reason) => Err(reason),
+        };
+        others.push(NamedPeer { name, result });
+    }
+    let peer = others.remove(0).result;
+    let lit = lit::measure(planned, programs.povray.as_ref(), &pool, progress)?;
+    Ok(Measured { balls: scene.len(), kernel, ours, peer, others, lit })
 }
 
-fn images<'a>(ours: &'a [Hit], theirs: &'a Result<HitImage, String>) -> Vec<&'a [Hit]> {
-    std::iter::once(ours).chain(theirs.iter().map(|image| &image.hits[..])).collect()
+/// A contender and its times so far, or why it has none.
+struct PeerRounds<'a> {
+    name: String,
+    result: Result<(Box<dyn Contender + 'a>, Rounds), String>,
+}
+
+/// What a peer has to show.
+struct Drawn {
+    name: String,
+    result: Result<(Rounds, HitImage), String>,
+}
+
+impl<'a> PeerRounds<'a> {
+    fn new((name, contender): Named<'a>) -> Self {
+        let result = contender.map(|contender| (contender, Rounds::default()));
+        Self { name, result: result.map_err(|error| format!("{error:#}")) }
+    }
+
+    /// Another round.
+    fn add(&mut self) {
+        let Ok((contender, rounds)) = &mut self.result else { return };
+        match contender.time() {
+            Ok(times) => rounds.add_peer(times),
+            Err(error) => self.result = Err(format!("{error:#}")),
+        }
+    }
+
+    fn finish(self) -> Drawn {
+        let result = self.result.and_then(|(contender, rounds)| {
+            let image = contender.hits().map_err(|error| format!("{error:#}"))?;
+            Ok((rounds, image))
+        });
+        Drawn { name: self.name, result }
+    }
+}
+
+fn images<'a>(ours: &'a [Hit], drawn: &'a [Drawn]) -> Vec<&'a [Hit]> {
+    let drawn = drawn.iter().filter_map(|peer| peer.result.as_ref().ok());
+    std::iter::once(ours).chain(drawn.map(|(_, image)| &image.hits[..])).collect()
 }
 
 /// The oracle on telling pixels; on all of a small picture.
@@ -185,7 +248,7 @@ struct Rounds {
 
 impl Rounds {
     fn add_peer(&mut self, times: Times) {
-        self.prepare.push(times.parse);
+        self.prepare.push(times.prepare);
         self.trace.push(times.trace);
         self.cpu.push(times.trace_cpu);
     }

@@ -7,21 +7,11 @@ use picture_files::HitImage;
 use super::blob::{Look, scene_text, vector};
 use super::job::Job;
 use super::log::clocks;
+use crate::tables::peers::contender::{Contender, Times};
 
 /// Periods of the fine channel over the range of the coarse one. A step of 16 bits in the coarse one
 /// is a sixteenth of a period, so the period is never uncertain.
 const PERIODS: f64 = 4096.0;
-
-/// Its own clocks, milliseconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Times {
-    /// Parsing the scene and making the blob's hierarchy, by the wall's clock.
-    pub parse: f64,
-    /// Tracing, by the wall's clock.
-    pub trace: f64,
-    /// Tracing, summed over its threads.
-    pub trace_cpu: f64,
-}
 
 /// A view of a scene, in white, or in colours that tell its depth.
 #[derive(Debug)]
@@ -42,24 +32,20 @@ impl<'a> Primary<'a> {
         let job = Job::new(&scene_text(scene, view, &look(view, range)), view, threads)?;
         Ok(Self { view, range, job })
     }
+}
 
-    /// Draws the scene in white, and reads the program's clocks.
-    ///
-    /// # Errors
-    /// When it fails, with its own words, or does not say how long it took.
-    pub fn time(&self) -> anyhow::Result<Times> {
+impl Contender for Primary<'_> {
+    /// In white. Before the first ray it parses the scene and makes the blob's hierarchy.
+    fn time(&self) -> anyhow::Result<Times> {
         let log = self.job.draw(&[])?;
-        let (parse, _) = clocks(&log, "Parse Time:")?;
+        let (prepare, _) = clocks(&log, "Parse Time:")?;
         let (trace, trace_cpu) = clocks(&log, "Trace Time:")?;
-        Ok(Times { parse, trace, trace_cpu })
+        Ok(Times { prepare, trace, trace_cpu })
     }
 
-    /// Draws the scene with its depth for a colour, and reads the hits off the picture, row by row
-    /// from the top left; without normals. Distances are along POV-Ray's own rays, which are f64.
-    ///
-    /// # Errors
-    /// When it fails, with its own words, or leaves no picture of the size.
-    pub fn hits(&self) -> anyhow::Result<HitImage> {
+    /// Draws the scene anew with its depth for a colour, and reads the hits off the picture, without
+    /// normals. Distances are along POV-Ray's own rays, which are f64.
+    fn hits(&self) -> anyhow::Result<HitImage> {
         self.job.draw(&["Depth"])?;
         let picture = self.job.picture()?;
         let (width, height) = picture.dimensions();
