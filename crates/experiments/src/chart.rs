@@ -7,6 +7,7 @@ mod moved;
 mod page;
 pub mod plan;
 pub mod record;
+mod settings;
 mod shortlist;
 
 use std::collections::BTreeMap;

@@ -40,8 +40,18 @@ impl Configuration {
     /// The method with one option set otherwise.
     pub fn with(method: &'static Method, option: &str, value: &str, technique: Technique) -> Self {
         let options = BTreeMap::from([(option.to_owned(), value.to_owned())]);
+        Self::with_all(method, options, technique)
+    }
+
+    /// The method with several options set otherwise, by their names.
+    pub fn with_all(
+        method: &'static Method,
+        options: BTreeMap<String, String>,
+        technique: Technique,
+    ) -> Self {
         let name = label(method.name, &options);
-        Self { method, options, technique, name, title: format!("… {option} {value}") }
+        let set: Vec<_> = options.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        Self { method, technique, name, title: format!("… {}", set.join(", ")), options }
     }
 
     /// The same under a name and a title of its own.

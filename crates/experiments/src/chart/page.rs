@@ -6,6 +6,7 @@ use std::fmt::Write;
 use super::frontier::frontier;
 use super::plan::Purpose;
 use super::record::{Chart, Group};
+use super::settings;
 use super::shortlist;
 use crate::conclusions::conclusions;
 use crate::html::escape;
@@ -42,6 +43,7 @@ pub(super) fn page(chart: &Chart) -> String {
         ("density", density_section(chart)),
         ("depth", depth_section(chart)),
         ("claim", claim_section(chart)),
+        ("settings", settings_section(chart)),
         ("shortlist", shortlist_section(chart)),
     ];
     page::page("Error against time", include_str!("page.html"), &parts)
@@ -106,8 +108,12 @@ fn error_plot(group: &Group, quantity: &str, error: Quantity) -> String {
         options.sort_unstable();
         options.dedup();
         for option in options {
-            let on_curve =
-                |record: &Record| record.options.is_empty() || record.options.contains_key(option);
+            // Of several options no curve tells.
+            let on_curve = |record: &Record| match record.options.len() {
+                0 => true,
+                1 => record.options.contains_key(option),
+                _ => false,
+            };
             let mut marks: Vec<_> = records
                 .iter()
                 .filter(|(record, _)| on_curve(record))
@@ -115,6 +121,11 @@ fn error_plot(group: &Group, quantity: &str, error: Quantity) -> String {
                 .collect();
             marks.sort_by(|a, b| a.x.total_cmp(&b.x));
             series.push(plain(name.clone(), true, marks));
+        }
+        let joint = records.iter().filter(|(record, _)| record.options.len() > 1);
+        let joint: Vec<_> = joint.map(|(record, measured)| mark(record, measured, error)).collect();
+        if !joint.is_empty() {
+            series.push(plain(name.clone(), false, joint));
         }
         for (record, measured) in records.iter().filter(|(record, _)| record.options.is_empty()) {
             let preset = mark(record, measured, error);
@@ -345,6 +356,43 @@ fn claim_section(chart: &Chart) -> String {
          <tbody>\n{rows}</tbody></table></div>\n"
     );
     section("A claim put to the test", &body)
+}
+
+/// The quickest setting of each method, and the quickest that is no more wrong than the preset.
+fn settings_section(chart: &Chart) -> String {
+    let rows = settings::rows(&chart.groups);
+    let cells = |setting: settings::Setting<'_>, flag: &str| {
+        format!(
+            "<td class=\"text\">{}</td><td>{}</td><td>{}{flag}</td>",
+            escape(&label(&setting.record.method, &setting.record.options)),
+            decimal(setting.ms),
+            setting.wrong
+        )
+    };
+    let line = |row: &settings::Row<'_>| {
+        let flag = if row.buys_speed_with_verdicts() { " ✗" } else { "" };
+        format!(
+            "<tr><td class=\"text\">{}</td>{}{}{}</tr>\n",
+            escape(row.scene),
+            cells(row.preset, ""),
+            cells(row.quickest_as_right, ""),
+            cells(row.quickest, flag)
+        )
+    };
+    let lines: String = rows.iter().map(line).collect();
+    let heading = "<th class=\"text\">{}</th><th>ms</th><th>Wrong</th>";
+    let headings = ["Preset", "Quickest that is as right", "Quickest of all"]
+        .map(|name| heading.replace("{}", name))
+        .concat();
+    let body = format!(
+        "<p>Each method with its knobs: its preset, the quickest setting that is wrong or open on no more \
+         rays than the preset, and the quickest of all; ✗ marks speed that was bought with wrong \
+         verdicts. Knobs of the published trees that interact (tolerance, leaf size, traversal cost, \
+         halving without bins, boxes, discarding) were turned together, in every combination.</p>\n<div \
+         class=\"scroll\"><table><thead><tr><th class=\"text\">Scene</th>{headings}</tr></thead>\n<tbody>\n\
+         {lines}</tbody></table></div>\n"
+    );
+    if rows.is_empty() { String::new() } else { section("The quickest settings", &body) }
 }
 
 /// The quickest of `auto`'s candidates beside the quickest of all configurations.

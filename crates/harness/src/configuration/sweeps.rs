@@ -1,4 +1,7 @@
-//! The knobs of every method: each turned on its own, from the method's preset.
+//! The knobs of every method: each turned on its own, from the method's preset, and those of the published
+//! trees that interact turned together.
+
+use std::collections::BTreeMap;
 
 use fbvh::{Boxes, Classes, Cost, Fitting, Options, Reading, SecantSearch, Structure};
 use illes_fraglist::Sort;
@@ -8,11 +11,12 @@ use super::Configuration;
 use crate::methods::{Method, find, methods};
 use crate::technique::Technique;
 
-/// Every configuration of a chart of error against time: each method's preset, and each of its knobs
-/// turned. Knobs that do not bear on a method are not in its list.
+/// Every configuration of a chart of error against time: each method's preset, each of its knobs turned,
+/// and every combination of those that interact. Knobs that do not bear on a method are not in its list.
 pub fn configurations() -> Vec<Configuration> {
-    let with_turned =
-        |method: &'static Method| std::iter::once(method.into()).chain(turned(method));
+    let with_turned = |method: &'static Method| {
+        std::iter::once(method.into()).chain(turned(method)).chain(jointly(method))
+    };
     methods().iter().flat_map(with_turned).collect()
 }
 
@@ -114,7 +118,66 @@ fn leaves(method: &'static Method) -> Vec<Configuration> {
     let costs = costs.into_iter().filter_map(|(name, cost)| {
         tree(method, "traversal cost", name, |options, _| options.traversal_cost = cost)
     });
-    sizes.chain(costs).collect()
+    let halved = tree(method, "halve above", "1000", |options, _| options.halve_above = 1_000);
+    sizes.chain(costs).chain(halved).collect()
+}
+
+/// A knob's position other than the preset's: its option, its value, and what it sets.
+type Turn = (&'static str, &'static str, fn(&mut Options, &mut SecantSearch));
+
+/// Knobs of a published tree of which one decides how much another brings: a coarse search makes large
+/// leaves cheap, large leaves want cheap steps, and what the builder may leave out depends on both.
+const JOINT: [&[Turn]; 4] = [
+    &[("tolerance", "1e-2", |_, search| search.tolerance = 1e-2)],
+    &[("leaf size", "4", |options, _| options.leaf_size = 4)],
+    &[
+        ("traversal cost", "4", |options, _| options.traversal_cost = 4.0),
+        ("traversal cost", "96", |options, _| options.traversal_cost = 96.0),
+    ],
+    &[("halve above", "1000", |options, _| options.halve_above = 1_000)],
+];
+
+/// The same of the Fitted BVH's boxes.
+const JOINT_FITTED: [&[Turn]; 2] = [
+    &[("boxes", "per ball", |options, _| fit(options, |fitting| fitting.boxes = Boxes::PerBall))],
+    &[("discarding", "off", |options, _| fit(options, |fitting| fitting.discard_up_to = 0))],
+];
+
+fn fit(options: &mut Options, change: impl FnOnce(&mut Fitting)) {
+    if let Structure::Fitted(fitting) = &mut options.structure {
+        change(fitting);
+    }
+}
+
+/// Every combination of two or more knobs of a published tree that interact.
+fn jointly(method: &'static Method) -> Vec<Configuration> {
+    let Technique::Tree(preset, Some(preset_search)) = method.technique else {
+        return Vec::new();
+    };
+    let is_fitted = matches!(preset.structure, Structure::Fitted(_));
+    let knobs = JOINT.into_iter().chain(JOINT_FITTED.into_iter().filter(|_| is_fitted));
+    let mut settings = vec![(BTreeMap::new(), preset, preset_search)];
+    for turns in knobs {
+        let turned: Vec<_> = settings
+            .iter()
+            .flat_map(|(names, options, search)| {
+                turns.iter().map(move |(option, value, turn)| {
+                    let (mut names, mut options, mut search) = (names.clone(), *options, *search);
+                    names.insert((*option).to_owned(), (*value).to_owned());
+                    turn(&mut options, &mut search);
+                    (names, options, search)
+                })
+            })
+            .collect();
+        settings.extend(turned);
+    }
+    settings
+        .into_iter()
+        .filter(|(names, ..)| names.len() > 1)
+        .map(|(names, options, search)| {
+            Configuration::with_all(method, names, Technique::Tree(options, Some(search)))
+        })
+        .collect()
 }
 
 /// Heuristic, fitting and discarding: sections 5.1 and 5.3.
@@ -224,6 +287,9 @@ mod tests {
             }
         }
         assert!(configurations().len() > quick_configurations().len());
+        // Two of six knobs' positions, two of them of one knob; without the preset and single turns.
+        let joint = |name| jointly(find(name).expect("listed")).len();
+        assert_eq!((joint("bvh"), joint("fbvh")), (2 * 2 * 3 * 2 - 6, 2 * 2 * 3 * 2 * 2 * 2 - 8));
         for crude in CRUDE {
             let has = |configuration: &Configuration| {
                 configuration
