@@ -37,5 +37,32 @@ fn trace(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, trace);
+/// By density, with a threshold of half the field's mean inside, so that hits stay. The tracer is kept from
+/// sample to sample, as from frame to frame.
+fn density(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("density");
+    group.sample_size(10);
+    for (density, threshold) in [(5, 0.57), (45, 5.0), (150, 17.0), (500, 57.0)] {
+        for generator in ["scattered", "pool", "tornado"] {
+            let name = format!("{generator}:10000:{density}");
+            let overrides = Overrides { threshold: Some(threshold), ..Overrides::default() };
+            let bench = bench_scenes::load(&name, &overrides).expect("a known scene");
+            let rays = View::new(bench.camera, WIDTH, HEIGHT).expect("a legal size").rays();
+            group.throughput(Throughput::Elements(rays.len() as u64));
+            let tree = Tree::build(&bench.scene, &Options::certified()).expect("legal options");
+            let id = |what| BenchmarkId::new(what, &name);
+            group.bench_with_input(id("first-picture"), &rays, |bencher, rays| {
+                bencher.iter(|| {
+                    Tracer::new(&tree, &bench.scene).picture_hits(black_box(rays), WIDTH as usize)
+                });
+            });
+            let tracer = Tracer::new(&tree, &bench.scene);
+            group.bench_with_input(id("later-pictures"), &rays, |bencher, rays| {
+                bencher.iter(|| tracer.picture_hits(black_box(rays), WIDTH as usize));
+            });
+        }
+    }
+}
+
+criterion_group!(benches, trace, density);
 criterion_main!(benches);

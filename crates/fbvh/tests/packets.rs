@@ -17,34 +17,13 @@ fn trees(scene: &Scene) -> [Tree; 2] {
         .map(|options| Tree::build(scene, &options).expect("legal options"))
 }
 
-/// What is wrong with a hit where a ray alone has another.
-///
-/// A normal may be of the point that f32 makes of t, off by a few 1e-7 of it: as far as normals differ
-/// around there, so may these. Where the field only just reaches T, at a ball's very centre perhaps, they
-/// may be any.
-fn difference(oracle: &Oracle<'_>, ray: &Ray, hit: &Hit, single: &Hit) -> Option<String> {
-    let truth = oracle.first_hit(ray);
-    let is_near = hit.t == single.t || (hit.t - single.t).abs() <= 1e-6 * single.t.abs();
-    let reach = 5e-7 * f64::from(single.t);
-    let point = ray.origin.as_dvec3() + f64::from(single.t) * ray.direction.as_dvec3();
-    let around = DVec3::AXES.map(|axis| {
-        let [before, behind] = [-reach, reach].map(|offset| oracle.normal(point + offset * axis));
-        before.distance(behind) as f32
-    });
-    let is_clear = single.is_hit() && !truth.is_ambiguous();
-    let apart = hit.normal.distance(single.normal);
-    let has_normal = !is_clear || apart <= 1e-3 + around.iter().sum::<f32>();
-    let is_same = hit.verdict == single.verdict && is_near && has_normal;
-    (!is_same).then(|| format!("{ray:?}: {hit:?} in a packet, alone {single:?}"))
+/// What is wrong with a hit where a ray alone has another: they are the same to the last bit.
+fn difference(ray: &Ray, hit: &Hit, single: &Hit) -> Option<String> {
+    (hit != single).then(|| format!("{ray:?}: {hit:?} in a packet, alone {single:?}"))
 }
 
 /// What is wrong with the answers to rays in packets.
-fn complaint(
-    tracer: &Tracer<'_, Scene>,
-    oracle: &Oracle<'_>,
-    rays: &[Ray],
-    width: usize,
-) -> Option<String> {
+fn complaint(tracer: &Tracer<'_, Scene>, rays: &[Ray], width: usize) -> Option<String> {
     let singles: Vec<Hit> = rays.iter().map(|ray| tracer.first_hit(ray)).collect();
     let pictured = tracer.picture_hits(rays, width);
     for hits in [tracer.first_hits(rays), pictured] {
@@ -52,7 +31,7 @@ fn complaint(
             return Some(format!("{} hits of {} rays", hits.len(), rays.len()));
         }
         let mut answers = rays.iter().zip(&hits).zip(&singles);
-        let found = answers.find_map(|((ray, hit), single)| difference(oracle, ray, hit, single));
+        let found = answers.find_map(|((ray, hit), single)| difference(ray, hit, single));
         if found.is_some() {
             return found;
         }
@@ -91,14 +70,15 @@ fn differences_are_complained_of() {
     let ray = Ray::new(Vec3::new(0.1, 0.2, -4.0), Vec3::Z);
     let hit = tracer.first_hit(&ray);
     let oracle = Oracle::new(&scene);
-    let later = Hit { t: hit.t * 1.0001, ..hit };
-    assert_eq!(difference(&oracle, &ray, &hit, &hit), None);
+    assert_eq!(difference(&ray, &hit, &hit), None);
+    assert!(difference(&ray, &Hit { t: hit.t.next_up(), ..hit }, &hit).is_some());
     assert_eq!(falsehood(&scene, &oracle, &ray, &hit), None);
+    let later = Hit { t: hit.t * 1.0001, ..hit };
     for wrong in [later, Hit::MISS, Hit { verdict: Verdict::Inside, ..hit }] {
-        assert!(difference(&oracle, &ray, &wrong, &hit).is_some());
+        assert!(difference(&ray, &wrong, &hit).is_some());
         assert!(falsehood(&scene, &oracle, &ray, &wrong).is_some());
     }
-    assert!(difference(&oracle, &ray, &Hit { normal: Vec3::Y, ..hit }, &hit).is_some());
+    assert!(difference(&ray, &Hit { normal: Vec3::Y, ..hit }, &hit).is_some());
     // Within the solid, and behind it.
     for t_min in [hit.t + 0.1, hit.t + 4.0] {
         let later = Ray { t_min, ..ray };
@@ -113,7 +93,6 @@ fn any_number_of_rays_will_do() {
     let balls =
         (0..60).map(|at| Metaball::new(Vec3::new((at % 8) as f32, (at / 8) as f32, 0.0), 0.9));
     let scene = Scene::new(balls, Kernel::QUARTIC, 0.3).expect("legal");
-    let oracle = Oracle::new(&scene);
     for tree in trees(&scene) {
         let tracer = Tracer::new(&tree, &scene);
         for (width, height) in [(0, 0), (1, 1), (7, 1), (8, 1), (9, 3), (5, 5), (3, 11), (33, 9)] {
@@ -122,9 +101,9 @@ fn any_number_of_rays_will_do() {
                 towards(Vec3::new(3.0, 3.0, -9.0), Vec3::new(0.25 * x, 0.9 * y, 0.0))
             };
             let rays: Vec<Ray> = (0..width * height).map(ray).collect();
-            assert_eq!(complaint(&tracer, &oracle, &rays, width), None, "{width} × {height}");
+            assert_eq!(complaint(&tracer, &rays, width), None, "{width} × {height}");
             // Not a whole number of rows.
-            assert_eq!(complaint(&tracer, &oracle, &rays, width + 2), None, "{width} × {height}");
+            assert_eq!(complaint(&tracer, &rays, width + 2), None, "{width} × {height}");
         }
     }
 }
@@ -136,14 +115,13 @@ fn rays_along_faces_hit_together() {
         Metaball::new(Vec3::new((at % 5) as f32, (at / 5 % 5) as f32, (at / 25) as f32), 1.0)
     });
     let scene = Scene::new(grid, Kernel::QUARTIC, 0.5).expect("legal");
-    let oracle = Oracle::new(&scene);
     for tree in trees(&scene) {
         let tracer = Tracer::new(&tree, &scene);
         for direction in [Vec3::Z, Vec3::new(-0.0, -0.0, 1.0)] {
             let start = |at: usize| Vec3::new((at % 5) as f32, (at / 5) as f32, -3.0);
             let rays: Vec<Ray> = (0..25).map(|at| Ray::new(start(at), direction)).collect();
             assert!(tracer.first_hits(&rays).iter().all(|hit| hit.verdict == Verdict::Hit));
-            assert_eq!(complaint(&tracer, &oracle, &rays, 5), None);
+            assert_eq!(complaint(&tracer, &rays, 5), None);
         }
     }
 }
@@ -172,7 +150,7 @@ fn grazing_rays_are_distinguished() {
                 assert_eq!(falsehood(&scene, &oracle, ray, &hit), None, "{kernel} {copies}");
                 clear += usize::from(!oracle.first_hit(ray).is_ambiguous());
             }
-            assert_eq!(complaint(&tracer, &oracle, &rays, 8), None, "{kernel} {copies}");
+            assert_eq!(complaint(&tracer, &rays, 8), None, "{kernel} {copies}");
         }
     }
     assert!(clear > 1000, "{clear}");
@@ -222,12 +200,32 @@ proptest! {
             .collect();
         for tree in trees(&scene) {
             let tracer = Tracer::new(&tree, &scene);
-            let found = complaint(&tracer, &oracle, &rays, 8);
+            let found = complaint(&tracer, &rays, 8);
             prop_assert!(found.is_none(), "{found:?}");
             for (ray, hit) in rays.iter().zip(tracer.first_hits(&rays)) {
                 let found = falsehood(&scene, &oracle, ray, &hit);
                 prop_assert!(found.is_none(), "{found:?}");
             }
         }
+    }
+}
+
+/// A ball so small and so far away that a few floats of t lie in it, before a large one that the ray just
+/// misses.
+#[test]
+fn balls_no_larger_than_some_floats_are_hit() {
+    let small = Metaball::new(Vec3::new(0.0, 0.0, 0.707_606_8), 0.001);
+    let scene = Scene::new([Metaball::new(Vec3::ZERO, 1.0), small], Kernel::QUARTIC, 0.25);
+    let scene = scene.expect("legal");
+    let direction = Vec3::new(-0.669_523_66, -0.742_784_86, -0.002_954_555);
+    let ray = Ray::new(Vec3::new(2931.501, 3252.274, 13.643_609), direction);
+    let truth = Oracle::new(&scene).first_hit(&ray);
+    assert!(truth.verdict == Verdict::Hit && truth.exit - truth.t < 0.002);
+    for tree in trees(&scene) {
+        let tracer = Tracer::new(&tree, &scene);
+        let hit = tracer.first_hit(&ray);
+        assert_eq!(falsehood(&scene, &Oracle::new(&scene), &ray, &hit), None);
+        assert_eq!(complaint(&tracer, &[ray; 8], 8), None);
+        assert!(hit.is_hit() && (f64::from(hit.t) - truth.t).abs() < 2.5e-4);
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! A leaf is searched in f32 first, by polynomials (`trace/certified/polynomial.rs`), with every
 //! rounding accounted for; what that cannot decide, kernels that are no polynomials among it, is
-//! searched in f64 by ranges (`trace/certified/ranges.rs`). The root is refined by Newton's steps in
-//! f64.
+//! searched in f64 by ranges (`trace/certified/ranges.rs`). Of a root the nearest float is found, in f64,
+//! so that it does not matter which search isolated it (`trace/certified/nearest_float.rs`).
 //!
 //! # By polynomials
 //! On an interval \[a, b\] of the ray a ball's v = 1 − r²/R² is a parabola with the Bernstein
@@ -15,6 +15,10 @@
 //! are below T, the interval holds no crossing. If the two agree and their signs change once, it
 //! holds one, the first. Otherwise the interval is shortened, from the front to where the upper
 //! polynomial may first reach T, and from the back to where the lower one certainly has.
+//!
+//! # By the leaf's polynomial
+//! Where many rays meet a leaf with a long list, one polynomial for the whole field in it decides most of
+//! them whatever the list's length (`trace/certified/leaf_polynomial.rs`), in packets.
 //!
 //! # By packets
 //! Of many rays, eight at a time go through the tree together (`trace/certified/packet.rs`), and a leaf
@@ -37,6 +41,8 @@
 mod bernstein;
 mod kernel;
 mod lanes;
+mod leaf_polynomial;
+mod nearest_float;
 mod packet;
 mod parabolas;
 mod polynomial;
@@ -44,6 +50,7 @@ mod query;
 mod ranges;
 mod ray;
 
+pub(super) use self::leaf_polynomial::Polynomials;
 pub(super) use self::packet::{PacketScratch, packets};
 pub(super) use self::query::{Crossing, Query};
 pub(super) use self::ray::{Scratch, UNDECIDED};

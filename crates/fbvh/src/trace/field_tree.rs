@@ -3,6 +3,7 @@
 use glam::Vec3;
 use metaball_core::{Hit, Ray, SurfaceHit, Verdict};
 
+use super::certified::Polynomials;
 use super::counter::Counter;
 use crate::{Field, Tree};
 
@@ -11,6 +12,8 @@ use crate::{Field, Tree};
 pub(super) struct FieldTree<'a, F> {
     pub(super) tree: &'a Tree,
     pub(super) field: &'a F,
+    /// Of the certified tree's leaves.
+    pub(super) polynomials: Polynomials,
 }
 
 impl<F: Field> FieldTree<'_, F> {

@@ -55,7 +55,7 @@ impl<F: Field> Published<'_, F> {
         if ray.is_empty() {
             return None;
         }
-        let FieldTree { tree, field } = *self.tree;
+        let FieldTree { tree, field, .. } = *self.tree;
         let start = ray.origin + ray.t_min * ray.direction;
         let is_complete = |leaf| {
             let mut own = tree.leaf_balls(leaf).0.iter();

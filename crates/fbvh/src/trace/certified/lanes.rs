@@ -35,6 +35,12 @@ pub(super) fn array_of<T: Copy, const N: usize>(entry: impl Fn(usize) -> T) -> [
 }
 
 impl<T: Copy> Lanes<T> {
+    /// The first numbers of a slice.
+    #[inline(always)]
+    pub(super) fn of(numbers: &[T]) -> Self {
+        Self(array_of(|lane| numbers[lane]))
+    }
+
     #[inline(always)]
     pub(super) fn splat(value: T) -> Self {
         Self([value; WIDTH])
@@ -113,12 +119,22 @@ impl Mask {
         Self(array_of(|lane| if bits & 1 << lane == 0 { 0 } else { u32::MAX }))
     }
 
-    /// Lane i in bit i.
+    /// Lane i in bit i: one instruction where the machine has AVX.
+    #[inline(always)]
+    pub(super) fn bits(self) -> u32 {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return simd.avx._mm256_movemask_ps(pulp::cast(self.0)) as u32;
+        }
+        self.sum_of_bits()
+    }
+
+    /// The same on any machine.
     ///
     /// Each lane adds 3·2ⁱ. For 2ⁱ the compiler would extract a flag from lane 0 and shift it, which splits
     /// all computations that lead here into four lanes, two and single ones.
     #[inline(always)]
-    pub(super) fn bits(self) -> u32 {
+    fn sum_of_bits(self) -> u32 {
         (0..WIDTH).fold(0, |bits, lane| bits + (self.0[lane] & 3 << lane)) / 3
     }
 
@@ -229,6 +245,7 @@ mod tests {
         for bits in 0..1 << WIDTH {
             let mask = Mask::from_bits(bits);
             assert_eq!((mask.bits(), mask.any()), (bits, bits != 0));
+            assert_eq!(mask.sum_of_bits(), bits);
             assert_eq!((!mask).bits(), !bits & 0xff);
             assert_eq!(lanes_of(bits).fold(0, |found, lane| found | 1 << lane), bits);
         }

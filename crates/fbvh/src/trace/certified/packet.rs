@@ -9,6 +9,7 @@
 mod balls;
 mod enclosure;
 mod leaf;
+mod polynomial;
 mod rays;
 mod root;
 
@@ -193,20 +194,27 @@ impl<F: Field> Traversal<'_, F> {
     /// Searches a leaf on the rays of some lanes.
     #[inline(always)]
     fn visit(&mut self, packet: &Packet, exact: &ExactPacket, leaf: usize, lanes: u32) {
-        let FieldTree { tree, field } = *self.tree;
+        let FieldTree { tree, field, .. } = *self.tree;
         let bounds = tree.leaves[leaf].bounds();
         let list = tree.list(leaf);
         let interval = packet.interval(exact, &bounds);
         let lanes = lanes & interval.0.is_at_most(interval.1).bits();
-        if list.is_empty() || lanes.count_ones() < 2 {
+        let rays = lanes.count_ones();
+        if list.is_empty() || rays == 0 {
             self.each(lanes, |traversal, lane| traversal.visit_alone(leaf, lane));
             return;
         }
         let PacketScratch { single, leaves } = &mut *self.scratch;
+        let polynomial = self.tree.polynomial(self.query, single.arch, leaf, rays);
+        if rays < 2 && polynomial.is_none() {
+            self.each(lanes, |traversal, lane| traversal.visit_alone(leaf, lane));
+            return;
+        }
         let balls = &mut leaves[leaf % LOADED];
         balls.load(field, leaf, &bounds, list);
+        let leaf_search = leaf::Leaf { balls, polynomial };
         let Found { nothing, somewhere, roots } =
-            leaf::search(self.query, single.arch, balls, (packet, exact), &interval, lanes);
+            leaf::search(self.query, single.arch, leaf_search, (packet, exact), &interval, lanes);
         let (nothing, somewhere) = (nothing.bits(), somewhere.bits());
         self.each(somewhere, |traversal, lane| {
             traversal.tree.hit_of(Answer::Somewhere, leaf, &traversal.rays[lane])

@@ -6,6 +6,7 @@ mod blocks;
 mod enclosure;
 mod root;
 
+use glam::DVec3;
 use metaball_core::Ray;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -30,6 +31,39 @@ pub(super) fn search(
 ) -> Answer {
     let search = Search { query, arch, blocks, ray, interval, counter };
     by_degree(query.kernel, search).unwrap_or(Answer::Undecided)
+}
+
+/// The float nearest to a root that is known to be near a guess, and the gradient there, by the balls of
+/// a leaf that has been loaded; `None` for a kernel that is no polynomial of v, or where Newton's steps lead
+/// elsewhere.
+pub(super) fn nearest_float(
+    query: &Query,
+    blocks: &Blocks,
+    ray: &Ray,
+    guess: f64,
+) -> Option<(f32, DVec3)> {
+    match by_degree(query.kernel, Nearest { query, blocks, ray, guess })? {
+        Answer::Root(t, gradient) => Some((t, gradient)),
+        _ => None,
+    }
+}
+
+struct Nearest<'a> {
+    query: &'a Query,
+    blocks: &'a Blocks,
+    ray: &'a Ray,
+    guess: f64,
+}
+
+impl ByDegree for Nearest<'_> {
+    type Output = Answer;
+
+    fn run<const N: usize>(self) -> Answer {
+        let Self { query, blocks, ray, guess } = self;
+        let gap = 2.0 * f64::from(f32::EPSILON) * guess.abs();
+        let ends = (guess - gap, guess + gap);
+        root::nearest_float::<N>(query, blocks, ray, guess, ends, &mut ())
+    }
 }
 
 struct Search<'a, C> {
@@ -60,7 +94,7 @@ impl<const N: usize, C: Counter> WithSimd for SearchOfDegree<'_, N, C> {
         let Self(Search { query, blocks, ray, interval, counter, .. }) = self;
         let relative = blocks.relative(ray, interval);
         blocks.project(ray, &relative);
-        search_of_degree::<N>(query, blocks, &relative, interval, counter)
+        search_of_degree::<N>(query, blocks, (ray, &relative), interval, counter)
     }
 }
 
@@ -69,18 +103,18 @@ impl<const N: usize, C: Counter> WithSimd for SearchOfDegree<'_, N, C> {
 fn search_of_degree<const N: usize>(
     query: &Query,
     blocks: &Blocks,
-    ray: &RelativeRay,
+    (ray, relative): (&Ray, &RelativeRay),
     interval: (f64, f64),
     counter: &mut impl Counter,
 ) -> Answer {
-    let last = ray.half;
+    let last = relative.half;
     let (mut start, mut end) = (-last, last);
     for count in 0..MOST_INTERVALS {
         counter.evaluation();
         let Some(bounds) = Enclosure::<N>::new(query, &blocks.parabolas, start, end) else {
             return Answer::Undecided;
         };
-        if count == 0 && ray.starts && bounds.upper[0] >= 0.0 {
+        if count == 0 && relative.starts && bounds.upper[0] >= 0.0 {
             let is_beyond = bounds.ends[0] > 0.0;
             return if is_beyond { Answer::StartsBeyond } else { Answer::Undecided };
         }
@@ -100,8 +134,12 @@ fn search_of_degree<const N: usize>(
         let width = f64::from(end) - f64::from(start);
         if bounds.is_exact && bounds.changes_sign_once() {
             let x = only_root(&bounds.middle());
-            let guess = f64::from(start) + x * width;
-            return root::refine::<N>(query, blocks, ray, guess, (start, end), interval, counter);
+            let from_base = |t: f64| relative.base + t;
+            let guess = from_base(f64::from(start) + x * width);
+            // Past the interval's end by a rounding: too close to decide here.
+            let end = from_base(f64::from(end)).min(interval.1);
+            let ends = (from_base(f64::from(start)), end);
+            return root::nearest_float::<N>(query, blocks, ray, guess, ends, counter);
         }
         // No crossing before `clear`; nor a little short of it, where the field is clear of T.
         let clear = negative_until(bounds.upper).unwrap_or(1.0);

@@ -29,8 +29,8 @@ pub(super) enum Answer {
     Nothing,
     /// The ray starts beyond the crossing.
     StartsBeyond,
-    /// The first crossing: the ray's t, and the gradient of the field there.
-    Root(f64, DVec3),
+    /// The first crossing: the nearest t of the ray, and the gradient of the field there.
+    Root(f32, DVec3),
     /// Certainly a crossing, for a query that any will do for.
     Somewhere,
     /// f32 cannot decide.

@@ -208,7 +208,7 @@ impl<F: Field> FieldTree<'_, F> {
             Answer::StartsBeyond => {
                 return Some(self.hit_at(Verdict::Inside, leaf, ray, ray.t_min));
             }
-            Answer::Root(t, gradient) => (t as f32, outward(gradient, ray)),
+            Answer::Root(t, gradient) => (t, outward(gradient, ray)),
             Answer::Somewhere => (f32::INFINITY, Vec3::ZERO),
         };
         let hit = Hit { verdict: Verdict::Hit, fallback: false, t, normal };
@@ -239,7 +239,13 @@ impl<F: Field> FieldTree<'_, F> {
                 return None;
             }
             Found::StartsBeyond => (Verdict::Inside, ray.t_min),
-            Found::Root(t) => (Verdict::Hit, t as f32),
+            Found::Root(t) => {
+                let blocks = &scratch.leaves[leaf % scratch.leaves.len()];
+                if let Some((t, gradient)) = polynomial::nearest_float(query, blocks, ray, t) {
+                    return self.hit_of(Answer::Root(t, gradient), leaf, ray);
+                }
+                (Verdict::Hit, t as f32)
+            }
             Found::Undecided(t) => (Verdict::Undecided, t as f32),
         };
         Some(self.hit_at(verdict, leaf, ray, t))

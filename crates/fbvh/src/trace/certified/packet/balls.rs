@@ -2,7 +2,7 @@
 
 use metaball_core::Aabb;
 
-use super::super::lanes::{Lanes, Mask, WIDTH, array_of};
+use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
 use super::super::parabolas::{Parabolas, UNIT};
 use super::rays::{ExactPacket, Packet, length_squared};
 use crate::Field;
@@ -38,7 +38,8 @@ pub(super) struct Block {
 #[derive(Debug, Default)]
 pub(super) struct Balls {
     leaf: Option<usize>,
-    middle: [f64; 3],
+    pub(super) middle: [f64; 3],
+    pub(super) least_radius: f64,
     pub(super) balls: Vec<Ball>,
     pub(super) blocks: Vec<Block>,
     /// The balls that reach a ray's interval, and each along the rays.
@@ -97,6 +98,8 @@ impl Balls {
                 strength: field.strength(ball as usize),
             }
         }));
+        let radii = self.balls.iter().map(|ball| f64::from(ball.radius));
+        self.least_radius = radii.fold(f64::INFINITY, f64::min);
         self.blocks.clear();
         self.blocks.extend(self.balls.chunks(WIDTH).map(|balls| {
             let zero = Lanes::splat(0.0);
@@ -109,6 +112,15 @@ impl Balls {
             }
             Block { center, radius, balls: (1 << balls.len()) - 1 }
         }));
+    }
+
+    /// Keeps the balls that may reach some intervals.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, near: &Surroundings) {
+        self.kept.clear();
+        for (at, block) in self.blocks.iter().enumerate() {
+            self.kept.extend(lanes_of(block.near(near)).map(|lane| (WIDTH * at + lane) as u32));
+        }
     }
 
     /// Moves the rays' origins to the middles of their intervals, in f64.
@@ -176,13 +188,22 @@ impl Ball {
 }
 
 impl RelativePacket {
-    /// Surrounds the intervals of some lanes; their directions have these lengths.
+    /// Surrounds parts of the intervals of some lanes, from `first` to `last`.
     #[inline(always)]
-    pub(super) fn surroundings(&self, length: Lanes<f32>, lanes: Mask) -> Surroundings {
+    pub(super) fn surroundings(
+        &self,
+        packet: &Packet,
+        exact: &ExactPacket,
+        (first, last): (Lanes<f32>, Lanes<f32>),
+        lanes: Mask,
+    ) -> Surroundings {
         let lane = lanes.bits().trailing_zeros() as usize;
-        let center = array_of(|axis| Lanes::splat(self.origin[axis].0[lane] as f32));
-        let away = array_of(|axis| self.origin[axis].map(|x| x as f32) - center[axis]);
-        let radius = length_squared(away).sqrt() + self.half * length;
+        let middle = (first + last) * 0.5;
+        let middles: [_; 3] =
+            array_of(|axis| self.origin[axis].map(|x| x as f32) + packet.direction[axis] * middle);
+        let center = array_of(|axis| Lanes::splat(middles[axis].0[lane]));
+        let away = array_of(|axis| middles[axis] - center[axis]);
+        let radius = length_squared(away).sqrt() + (last - first) * 0.5 * exact.length;
         let radius = lanes.select(radius * (1.0 + ROUNDED) + self.reach * ROUNDED, ZERO);
         // Where f32 overflows no ball is culled.
         let is_finite = radius.0.iter().all(|radius| radius.is_finite());

@@ -19,16 +19,30 @@ pub(super) struct Enclosure<const N: usize> {
     pub(super) is_known: Mask,
 }
 
+/// What encloses the field along the rays.
+pub(super) trait Encloses<const N: usize> {
+    /// The field between `start` and `end`.
+    fn enclosure(&self, start: Lanes<f32>, end: Lanes<f32>) -> Enclosure<N>;
+}
+
+/// The balls of a list, along the rays.
+pub(super) struct OfBalls<'a> {
+    pub(super) query: &'a Query,
+    pub(super) parabolas: &'a [Parabolas],
+}
+
+impl<const N: usize> Encloses<N> for OfBalls<'_> {
+    #[inline(always)]
+    fn enclosure(&self, start: Lanes<f32>, end: Lanes<f32>) -> Enclosure<N> {
+        Enclosure::new(self.query, self.parabolas, start, end)
+    }
+}
+
 impl<const N: usize> Enclosure<N> {
     /// Encloses the field between `start` and `end`. Rounding as for a single ray, and 32u more for sums
     /// and products here, which are f32.
     #[inline(always)]
-    pub(super) fn new(
-        query: &Query,
-        parabolas: &[Parabolas],
-        start: Lanes<f32>,
-        end: Lanes<f32>,
-    ) -> Self {
+    fn new(query: &Query, parabolas: &[Parabolas], start: Lanes<f32>, end: Lanes<f32>) -> Self {
         let sums = Sums::<N>::new(query.kernel, parabolas, start, end);
         let inverses = const { inverse_binomials::<N>() };
         let threshold = query.threshold as f32;

@@ -10,18 +10,22 @@
 //! - An interval holds one crossing also where the field is below T at its start and above at its
 //!   end, and no ball that reaches it decreases on it: the field rises there, whatever rims there are.
 
+use std::mem;
+
 use pulp::{Arch, Simd, WithSimd};
 
 use super::super::bernstein::value_and_rise;
 use super::super::kernel::{ByDegree, by_degree, is_polynomial, value};
 use super::super::lanes::{Lanes, Mask, WIDTH, lanes_of};
+use super::super::leaf_polynomial::LeafPolynomial;
 use super::super::parabolas::UNIT;
 use super::super::polynomial::MOST_INTERVALS;
 use super::super::query::{Crossing, Query};
 use super::balls::{Balls, RelativePacket};
-use super::enclosure::Enclosure;
+use super::enclosure::{Encloses, OfBalls};
+use super::polynomial::AlongRays;
 use super::rays::{ExactPacket, Packet};
-use super::root::{Isolated, Roots, approach, refine};
+use super::root::{Isolated, Roots, approach, approach_from_nearby, refine};
 
 /// Whether packets can be searched for it: for an entry, by polynomials.
 pub(super) fn is_searched_in_packets(query: &Query) -> bool {
@@ -38,11 +42,17 @@ pub(super) struct Found {
     pub(super) roots: Roots,
 }
 
+/// What a leaf is searched by.
+pub(super) struct Leaf<'a> {
+    pub(super) balls: &'a mut Balls,
+    pub(super) polynomial: Option<&'a LeafPolynomial>,
+}
+
 /// Searches a leaf that has been loaded, over the intervals of some of the packet's rays.
 pub(super) fn search(
     query: &Query,
     arch: Arch,
-    balls: &mut Balls,
+    leaf: Leaf<'_>,
     (packet, exact): (&Packet, &ExactPacket),
     interval: &(Lanes<f64>, Lanes<f64>),
     lanes: u32,
@@ -50,14 +60,14 @@ pub(super) fn search(
     let (nothing, somewhere, roots) = (Mask::NONE, Mask::NONE, Roots::NONE);
     let mut found = Found { nothing, somewhere, roots };
     let (lanes, results) = (Mask::from_bits(lanes), &mut found);
-    by_degree(query.kernel, Search { query, arch, balls, packet, exact, interval, lanes, results });
+    by_degree(query.kernel, Search { query, arch, leaf, packet, exact, interval, lanes, results });
     found
 }
 
 struct Search<'a> {
     query: &'a Query,
     arch: Arch,
-    balls: &'a mut Balls,
+    leaf: Leaf<'a>,
     packet: &'a Packet,
     exact: &'a ExactPacket,
     interval: &'a (Lanes<f64>, Lanes<f64>),
@@ -68,55 +78,139 @@ struct Search<'a> {
 impl ByDegree for Search<'_> {
     type Output = ();
 
-    fn run<const N: usize>(self) {
-        self.arch.dispatch(SearchOfDegree::<N>(self));
+    fn run<const N: usize>(mut self) {
+        let arch = self.arch;
+        if let Some(polynomial) = self.leaf.polynomial {
+            self.lanes = arch.dispatch(ByPolynomial::<N> { search: &mut self, polynomial });
+        }
+        if self.lanes.any() {
+            arch.dispatch(ByBalls::<N>(self));
+        }
     }
 }
 
-/// The search, as `pulp` compiles it for wider vectors.
-struct SearchOfDegree<'a, const N: usize>(Search<'a>);
+/// The search by the leaf's polynomial, as `pulp` compiles it for wider vectors. Its output are the lanes
+/// that it leaves open.
+struct ByPolynomial<'a, 'b, const N: usize> {
+    search: &'a mut Search<'b>,
+    polynomial: &'b LeafPolynomial,
+}
 
-impl<const N: usize> WithSimd for SearchOfDegree<'_, N> {
+impl<const N: usize> WithSimd for ByPolynomial<'_, '_, N> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Mask {
+        let Self { search, polynomial } = self;
+        let Search { packet, exact, interval, .. } = *search;
+        let relative = search.leaf.balls.relative(packet, exact, *interval);
+        search.by_polynomial::<N>(polynomial, &relative)
+    }
+}
+
+/// The search by the leaf's balls.
+struct ByBalls<'a, const N: usize>(Search<'a>);
+
+impl<const N: usize> WithSimd for ByBalls<'_, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self(mut search) = self;
-        let Search { packet, exact, interval, .. } = search;
-        let relative = search.balls.relative(packet, exact, *interval);
-        let projected = search.project::<N>(&relative);
-        if !projected.open.any() {
+        let Search { packet, exact, interval, lanes, .. } = search;
+        let relative = search.leaf.balls.relative(packet, exact, *interval);
+        search.by_balls::<N>(&relative, lanes);
+    }
+}
+
+/// Intervals of a ray that are searched by the leaf's polynomial: where it decides, two are typical.
+const MOST_BY_POLYNOMIAL: usize = 6;
+
+impl Search<'_> {
+    /// Searches by the polynomial; the lanes that it leaves open.
+    #[inline(always)]
+    fn by_polynomial<const N: usize>(
+        &mut self,
+        polynomial: &LeafPolynomial,
+        relative: &RelativePacket,
+    ) -> Mask {
+        let along = AlongRays::new(polynomial, self.packet, self.exact, relative);
+        let lanes = self.lanes;
+        let isolated =
+            self.isolate(&along, relative.half, (lanes, relative.half), MOST_BY_POLYNOMIAL);
+        if isolated.found.any() {
+            let guess = along.approach(&isolated);
+            let part = (isolated.start, isolated.end);
+            let Self { packet, exact, .. } = *self;
+            let near = relative.surroundings(packet, exact, part, isolated.found);
+            self.leaf.balls.keep(&near);
+            let balls = &*self.leaf.balls;
+            let rays = (packet, relative);
+            let guess = approach_from_nearby::<N>(self.query, balls, rays, &isolated, guess);
+            self.finish::<N>(relative, &isolated, guess);
+        }
+        let Found { nothing, somewhere, roots } = &*self.results;
+        lanes & !(*nothing | *somewhere | Mask::from_bits(roots.lanes))
+    }
+
+    /// Searches by the balls of the list.
+    #[inline(always)]
+    fn by_balls<const N: usize>(&mut self, relative: &RelativePacket, lanes: Mask) {
+        let back = Lanes::splat(0.0f32) - relative.half;
+        let Projected { is_below, end } = self.project::<N>(relative, (back, relative.half), lanes);
+        self.results.nothing = self.results.nothing | lanes & is_below;
+        let open = lanes & !is_below;
+        if !open.any() {
             return;
         }
-        let isolated = search.isolate::<N>(&relative, projected);
+        let end = back.is_less(end).select(end, relative.half);
+        let parabolas = mem::take(&mut self.leaf.balls.parabolas);
+        let along = OfBalls { query: self.query, parabolas: &parabolas };
+        let isolated = self.isolate::<N>(&along, relative.half, (open, end), MOST_INTERVALS);
+        self.leaf.balls.parabolas = parabolas;
         if isolated.found.any() {
-            let Search { query, balls, results, .. } = search;
-            let guess = approach::<N>(query, balls, &isolated);
-            let rays = (packet, &relative);
-            results.roots = refine::<N>(query, balls, rays, &isolated, guess, *interval);
+            let guess = approach::<N>(self.query, self.leaf.balls, &isolated);
+            self.finish::<N>(relative, &isolated, guess);
         }
+    }
+
+    /// Finds the roots that are isolated near a guess, by the balls that are kept.
+    #[inline(always)]
+    fn finish<const N: usize>(
+        &mut self,
+        relative: &RelativePacket,
+        isolated: &Isolated,
+        guess: Lanes<f32>,
+    ) {
+        let Self { query, packet, exact, interval, .. } = *self;
+        let (rays, roots) = ((packet, exact, relative), &mut self.results.roots);
+        refine::<N>(query, self.leaf.balls, rays, isolated, guess, interval.1, roots);
     }
 }
 
 /// What the balls' projections show.
 struct Projected {
-    /// Where the field may reach T; in the other lanes nothing crosses.
-    open: Mask,
+    /// Where the field reaches T nowhere.
+    is_below: Mask,
     /// Where the first interval is best ended.
     end: Lanes<f32>,
 }
 
 impl Search<'_> {
-    /// Projects the balls on the rays and keeps those that reach an interval.
+    /// Projects the balls on the rays of some lanes and keeps those that reach an interval.
     #[inline(always)]
-    fn project<const N: usize>(&mut self, relative: &RelativePacket) -> Projected {
+    fn project<const N: usize>(
+        &mut self,
+        relative: &RelativePacket,
+        (first, last): (Lanes<f32>, Lanes<f32>),
+        lanes: Mask,
+    ) -> Projected {
         let zero = Lanes::splat(0.0f32);
         let inverse_square_length = self.exact.square.map(|square| (square as f32).recip());
-        let back = zero - relative.half;
         let threshold = Lanes::splat(self.query.threshold as f32);
-        let (mut upper_bound, mut end) = (zero, relative.half);
-        let surroundings = relative.surroundings(self.exact.length, self.lanes);
-        let Balls { balls, blocks, kept, parabolas, .. } = &mut *self.balls;
+        let (mut upper_bound, mut end) = (zero, last);
+        let surroundings = relative.surroundings(self.packet, self.exact, (first, last), lanes);
+        let Balls { balls, blocks, kept, parabolas, .. } = &mut *self.leaf.balls;
         kept.clear();
         parabolas.clear();
         for (at, block) in blocks.iter().enumerate() {
@@ -124,10 +218,10 @@ impl Search<'_> {
                 let at = WIDTH * at + lane;
                 let ball = &balls[at];
                 let (parabola, along) = ball.along(self.packet, self.exact, relative);
-                let t = (along * inverse_square_length).min(relative.half).max(back);
+                let t = (along * inverse_square_length).min(last).max(first);
                 let v = parabola.constant + (parabola.linear - parabola.square * t) * t;
                 let top = v + parabola.margin;
-                if !(self.lanes & !top.is_at_most(zero)).any() {
+                if !(lanes & !top.is_at_most(zero)).any() {
                     continue;
                 }
                 // NaN stays NaN.
@@ -140,29 +234,27 @@ impl Search<'_> {
                 parabolas.push(parabola);
             }
         }
-        let rounding = (self.balls.parabolas.len() + 34) as f32 * UNIT;
-        let is_below = (upper_bound * (1.0 + rounding)).is_less(threshold);
-        self.results.nothing = self.lanes & is_below;
-        let end = back.is_less(end).select(end, relative.half);
-        Projected { open: self.lanes & !is_below, end }
+        let rounding = (parabolas.len() + 34) as f32 * UNIT;
+        Projected { is_below: (upper_bound * (1.0 + rounding)).is_less(threshold), end }
     }
 
     /// Front to back, each lane on its own: nothing crosses before `start`. Lanes that cannot decide
-    /// are in no mask.
+    /// are in no mask. The first interval ends at `end`, and at most so many are searched.
     #[inline(always)]
     fn isolate<const N: usize>(
         &mut self,
-        relative: &RelativePacket,
-        projected: Projected,
+        along: &impl Encloses<N>,
+        last: Lanes<f32>,
+        (mut open, mut end): (Mask, Lanes<f32>),
+        most_intervals: usize,
     ) -> Isolated {
         let zero = Lanes::splat(0.0f32);
-        let last = relative.half;
-        let (mut start, Projected { mut open, mut end }) = (zero - last, projected);
+        let mut start = zero - last;
         let mut isolated = Isolated { found: Mask::NONE, start: zero, end: zero, guess: zero };
         // A step this long exceeds the rounding of a sum.
         let step = last * (4.0 * UNIT);
-        for _ in 0..MOST_INTERVALS {
-            let bounds = Enclosure::<N>::new(self.query, &self.balls.parabolas, start, end);
+        for _ in 0..most_intervals {
+            let bounds = along.enclosure(start, end);
             // Not where a ray starts inside, nor where rounding is as large as T.
             open = open & bounds.is_known & bounds.upper[0].is_less(zero);
             if self.query.any {

@@ -12,8 +12,8 @@ pub(super) struct Packet {
     pub(super) origin: [Lanes<f32>; 3],
     pub(super) direction: [Lanes<f32>; 3],
     inverse: [Lanes<f32>; 3],
-    t_min: Lanes<f32>,
-    t_max: Lanes<f32>,
+    pub(super) t_min: Lanes<f32>,
+    pub(super) t_max: Lanes<f32>,
     /// Per axis: whether the rays go towards −∞.
     pub(super) is_negative: [bool; 3],
 }

@@ -1,13 +1,13 @@
-//! The roots that a packet's search has isolated: first in f32, then by Newton's steps in f64 on the
-//! field itself.
+//! The roots that a packet's search has isolated: first in f32, then to the nearest float.
 
 use glam::DVec3;
 
 use super::super::kernel::{slope, value, value_and_slope};
 use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
+use super::super::nearest_float::{Excess, MOST_LOOKS, NearestFloat, Next};
 use super::super::query::Query;
 use super::balls::{Balls, RelativePacket};
-use super::rays::Packet;
+use super::rays::{ExactPacket, Packet};
 
 /// Where lanes have isolated a root: the only one of an interval.
 pub(super) struct Isolated {
@@ -22,14 +22,17 @@ pub(super) struct Isolated {
 pub(super) struct Roots {
     pub(super) lanes: u32,
     /// The ray's t, and the gradient of the field there.
-    pub(super) roots: [(f64, DVec3); WIDTH],
+    pub(super) roots: [(f32, DVec3); WIDTH],
 }
 
 impl Roots {
     pub(super) const NONE: Self = Self { lanes: 0, roots: [(0.0, DVec3::ZERO); WIDTH] };
 }
 
-/// The roots to what f32 can resolve: Newton's steps, kept between the ends.
+/// A step in f32 that is short enough for f64, in lengths of the interval: the next error is its square.
+const NEAR: f32 = 3e-3;
+
+/// The roots, roughly: Newton's steps, kept between the ends.
 #[inline(always)]
 pub(super) fn approach<const N: usize>(
     query: &Query,
@@ -39,8 +42,7 @@ pub(super) fn approach<const N: usize>(
     const MOST_STEPS: usize = 12;
     let zero = Lanes::splat(0.0f32);
     let Isolated { found, start: mut low, end: mut high, guess: mut t } = *isolated;
-    // The next error is the square of this.
-    let near = (high - low) * 1e-4;
+    let near = (high - low) * NEAR;
     for _ in 0..MOST_STEPS {
         let mut excess = Lanes::splat(-query.threshold as f32);
         let mut rise = zero;
@@ -66,70 +68,121 @@ pub(super) fn approach<const N: usize>(
     t
 }
 
-/// The roots near the guesses, and the field's gradients there. `interval` is the rays' in the leaf.
+/// The roots, roughly, from guesses near them: Newton's steps on the balls themselves.
 #[inline(always)]
-pub(super) fn refine<const N: usize>(
+pub(super) fn approach_from_nearby<const N: usize>(
     query: &Query,
     balls: &Balls,
     (packet, relative): (&Packet, &RelativePacket),
     isolated: &Isolated,
     guess: Lanes<f32>,
-    interval: (Lanes<f64>, Lanes<f64>),
-) -> Roots {
-    const MOST_STEPS: usize = 6;
+) -> Lanes<f32> {
+    const MOST_STEPS: usize = 3;
+    let zero = Lanes::splat(0.0f32);
     let Isolated { found, start, end, .. } = *isolated;
-    let direction: [_; 3] = array_of(|axis| packet.direction[axis].map(f64::from));
-    let mut t = guess.map(f64::from);
-    // A step leaves an error of its square, and the normal, from before it, is off by the step over the
-    // distance from a centre. But for α = 1, whose slope jumps at a rim, it may leave as much again.
-    let last = if N == 3 { 1e-8 } else { 1e-6 };
-    let radii = balls.kept.iter().map(|&at| balls.balls[at as usize].radius);
-    let last_step = last * f64::from(radii.fold(f32::INFINITY, f32::min));
-    let (mut roots, mut open) = (Roots::NONE, found.bits());
+    let mut t = guess;
+    let near = relative.half * NEAR;
     for _ in 0..MOST_STEPS {
-        let (excess, gradient) =
-            excess_and_gradient::<N>(query, balls, &relative.origin, &direction, t);
-        let [x, y, z] = gradient;
-        let rise = x * direction[0] + y * direction[1] + z * direction[2];
-        let step = excess.zip(rise, |excess, rise| excess / rise);
-        t = t - step;
+        let mut point = packet.direction;
+        for (coordinate, origin) in point.iter_mut().zip(&relative.origin) {
+            *coordinate = origin.map(|x| x as f32) + t * *coordinate;
+        }
+        let mut excess = Lanes::splat(-query.threshold as f32);
+        let mut rise = zero;
+        for &at in &balls.kept {
+            let ball = &balls.balls[at as usize];
+            let (mut square, mut along) = (zero, zero);
+            for (axis, direction) in packet.direction.iter().enumerate() {
+                let offset = Lanes::splat(ball.center[axis]) - point[axis];
+                square += offset * offset;
+                along += offset * *direction;
+            }
+            let v = (square * ball.inverse_square_f32).map(|square| 1.0 - square).max(zero);
+            excess += value::<N>(query.kernel, v) * ball.strength;
+            let weight = 2.0 * ball.strength * ball.inverse_square_f32;
+            rise += slope::<N>(query.kernel, v) * along * weight;
+        }
+        let next = (t - excess.zip(rise, |excess, rise| excess / rise)).min(end).max(start);
+        let moves = near.is_less((next - t).map(f32::abs));
+        t = next;
+        if !(moves & found).any() {
+            break;
+        }
+    }
+    t
+}
+
+/// The floats nearest to the roots near the guesses, and the field's gradients there. The rays leave the
+/// leaf at `end`. They are added to `roots`.
+#[inline(always)]
+pub(super) fn refine<const N: usize>(
+    query: &Query,
+    balls: &Balls,
+    (packet, exact, relative): (&Packet, &ExactPacket, &RelativePacket),
+    isolated: &Isolated,
+    guess: Lanes<f32>,
+    end: Lanes<f64>,
+    roots: &mut Roots,
+) {
+    let origin = array_of(|axis| exact.origin[axis] - Lanes::splat(balls.middle[axis]));
+    let direction = array_of(|axis| packet.direction[axis].map(f64::from));
+    let guess = relative.base + guess.map(f64::from);
+    let mut searches: [_; WIDTH] = array_of(|lane| {
+        let from_base = |t: &Lanes<f32>| relative.base.0[lane] + f64::from(t.0[lane]);
+        // Past the interval's end by a rounding: too close to decide here.
+        let last = from_base(&isolated.end).min(end.0[lane]);
+        let ends = (from_base(&isolated.start), last);
+        let limits = (packet.t_min.0[lane], packet.t_max.0[lane]);
+        NearestFloat::new(guess.0[lane], ends, limits, balls.least_radius, N == 3)
+    });
+    let mut open = isolated.found.bits();
+    for _ in 0..MOST_LOOKS {
+        let t = Lanes(array_of(|lane| searches[lane].at));
+        let field = excess::<N>(query, balls, &origin, &direction, t);
         for lane in lanes_of(open) {
-            let (here, step) = (t.0[lane], step.0[lane]);
-            let is_between = here >= f64::from(start.0[lane]) && here <= f64::from(end.0[lane]);
-            let is_close = step.abs() <= last_step.min(last * f64::from(relative.half.0[lane]));
-            if is_between && !is_close {
-                continue;
+            match searches[lane].look(field.lane(lane)) {
+                Next::Another => continue,
+                Next::Found(t, gradient) => {
+                    roots.lanes |= 1 << lane;
+                    roots.roots[lane] = (t, gradient);
+                }
+                Next::Lost => {}
             }
             open &= !(1 << lane);
-            let t = relative.base.0[lane] + here;
-            // Past the ray's end by a rounding: too close to decide here.
-            if is_between && t <= interval.1.0[lane] {
-                let gradient = DVec3::from(array_of(|axis| gradient[axis].0[lane]));
-                roots.lanes |= 1 << lane;
-                roots.roots[lane] = (t.max(interval.0.0[lane]), gradient);
-            }
         }
         if open == 0 {
             break;
         }
     }
-    roots
 }
 
-/// F − T and the gradient of F, 1/scene unit.
+/// [`Excess`], lane by lane.
+struct Excesses {
+    value: Lanes<f64>,
+    gradient: [Lanes<f64>; 3],
+    slope: Lanes<f64>,
+}
+
+impl Excesses {
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Excess {
+        let gradient = DVec3::from(array_of(|axis| self.gradient[axis].0[lane]));
+        Excess { value: self.value.0[lane], gradient, slope: self.slope.0[lane] }
+    }
+}
+
+/// The field at points of the rays, by the balls that are kept: the others add nothing, not even a
+/// rounding.
 #[inline(always)]
-fn excess_and_gradient<const N: usize>(
+fn excess<const N: usize>(
     query: &Query,
     balls: &Balls,
     origin: &[Lanes<f64>; 3],
     direction: &[Lanes<f64>; 3],
     t: Lanes<f64>,
-) -> (Lanes<f64>, [Lanes<f64>; 3]) {
-    let mut point = *origin;
-    for axis in 0..3 {
-        point[axis] += t * direction[axis];
-    }
-    let mut sum = Lanes::splat(-query.threshold);
+) -> Excesses {
+    let point: [_; 3] = array_of(|axis| origin[axis] + t * direction[axis]);
+    let mut value = Lanes::splat(-query.threshold);
     let mut gradient = [Lanes::splat(0.0f64); 3];
     for &at in &balls.kept {
         let ball = &balls.balls[at as usize];
@@ -137,12 +190,13 @@ fn excess_and_gradient<const N: usize>(
         let v =
             (x * x + y * y + z * z).map(|distance| (1.0 - distance * ball.inverse_square).max(0.0));
         let strength = f64::from(ball.strength);
-        let (value, slope) = value_and_slope::<N>(query.kernel, v);
-        sum += value * strength;
+        let (part, slope) = value_and_slope::<N>(query.kernel, v);
+        value += part * strength;
         let pull = slope * (strength * ball.inverse_square * 2.0);
         for (sum, offset) in gradient.iter_mut().zip([x, y, z]) {
             *sum += offset * pull;
         }
     }
-    (sum, gradient)
+    let [x, y, z] = array_of(|axis| gradient[axis] * direction[axis]);
+    Excesses { value, gradient, slope: x + y + z }
 }

@@ -26,7 +26,8 @@ pub(super) struct Block {
 #[derive(Debug, Default)]
 pub(in crate::trace::certified) struct Blocks {
     leaf: Option<usize>,
-    middle: DVec3,
+    pub(super) middle: DVec3,
+    pub(super) least_radius: f64,
     pub(super) blocks: Vec<Block>,
     pub(super) parabolas: Vec<Parabolas>,
 }
@@ -37,7 +38,7 @@ pub(in crate::trace::certified) struct Blocks {
 pub(super) struct RelativeRay {
     /// The nearby origin, from the middle of the leaf's box.
     pub(super) origin: DVec3,
-    pub(super) direction: DVec3,
+    direction: DVec3,
     pub(super) base: f64,
     pub(super) half: f32,
     /// Whether the ray starts with the interval.
@@ -58,6 +59,7 @@ impl Blocks {
         }
         self.leaf = Some(leaf);
         self.middle = bounds.center().as_dvec3();
+        self.least_radius = f64::INFINITY;
         self.blocks.clear();
         for balls in list.chunks(WIDTH) {
             let mut exact = [Lanes::splat(0.0); 3];
@@ -70,6 +72,7 @@ impl Blocks {
                     exact[axis].0[lane] = center[axis];
                 }
                 radius[lane] = f64::from(support.radius);
+                self.least_radius = self.least_radius.min(radius[lane]);
                 strength.0[lane] = field.strength(ball as usize);
             }
             let inverse = Lanes(radius).map(f64::recip);

@@ -1,73 +1,67 @@
 //! Newton's steps to the only root of an interval, in f64 on the field itself.
 
 use glam::DVec3;
+use metaball_core::Ray;
 
 use super::super::kernel::value_and_slope;
 use super::super::lanes::{Lanes, array_of};
+use super::super::nearest_float::{Excess, MOST_LOOKS, NearestFloat, Next};
 use super::super::query::{Answer, Query};
-use super::blocks::{Blocks, RelativeRay};
+use super::blocks::Blocks;
 use crate::trace::counter::Counter;
 
-/// The root near a guess between `start` and `end`, and the field's gradient there. `interval` is the
-/// ray's in the leaf.
+/// The float nearest to the root near a guess, which has to lie between the ends, all in the ray's t.
 #[inline(always)]
-pub(super) fn refine<const N: usize>(
+pub(super) fn nearest_float<const N: usize>(
     query: &Query,
     blocks: &Blocks,
-    ray: &RelativeRay,
+    ray: &Ray,
     guess: f64,
-    (start, end): (f32, f32),
-    interval: (f64, f64),
+    ends: (f64, f64),
     counter: &mut impl Counter,
 ) -> Answer {
-    const MOST_STEPS: usize = 6;
-    let mut t = guess;
-    for _ in 0..MOST_STEPS {
+    let origin = ray.origin.as_dvec3() - blocks.middle;
+    let direction = ray.direction.as_dvec3();
+    let limits = (ray.t_min, ray.t_max);
+    let mut search = NearestFloat::new(guess, ends, limits, blocks.least_radius, N == 3);
+    for _ in 0..MOST_LOOKS {
         counter.iteration();
-        let (excess, gradient) = excess_and_gradient::<N>(query, blocks, ray, t);
-        let step = excess / gradient.dot(ray.direction);
-        t -= step;
-        if !(t >= f64::from(start) && t <= f64::from(end)) {
-            return Answer::Undecided;
-        }
-        // An f32 holds no more. Not sooner: behind the rim of a support slopes may differ, and
-        // then the next error is as large as the step.
-        if step.abs() <= 1e-8 * f64::from(ray.half) {
-            let t = ray.base + t;
-            // Past the ray's end by a rounding: too close to decide here.
-            return if t <= interval.1 {
-                Answer::Root(t.max(interval.0), gradient)
-            } else {
-                Answer::Undecided
-            };
+        let point = origin + search.at * direction;
+        match search.look(excess::<N>(query, blocks, point, direction)) {
+            Next::Another => {}
+            Next::Found(t, gradient) => return Answer::Root(t, gradient),
+            Next::Lost => break,
         }
     }
     Answer::Undecided
 }
 
-/// F − T and the gradient of F, 1/scene unit.
+/// The field at a point, relative to the middle of the leaf's box. Each ball's part is what
+/// `trace/certified/packet/root.rs` makes of it, and they are added up in the same order.
 #[inline(always)]
-fn excess_and_gradient<const N: usize>(
+fn excess<const N: usize>(
     query: &Query,
     blocks: &Blocks,
-    ray: &RelativeRay,
-    t: f64,
-) -> (f64, DVec3) {
-    let point = (ray.origin + t * ray.direction).to_array();
-    let zero = Lanes::splat(0.0f64);
-    let (mut sum, mut gradient) = (zero, [zero; 3]);
+    point: DVec3,
+    direction: DVec3,
+) -> Excess {
+    let (mut value, mut gradient) = (-query.threshold, DVec3::ZERO);
     for block in &blocks.blocks {
-        let [x, y, z] = array_of(|axis| block.exact[axis] - Lanes::splat(point[axis]));
+        let offset: [_; 3] =
+            array_of(|axis| block.exact[axis] - Lanes::splat(point.to_array()[axis]));
+        let [x, y, z] = offset;
         let v = (x * x + y * y + z * z)
             .zip(block.inverse_square, |distance, inverse| (1.0 - distance * inverse).max(0.0));
         let strength = block.strength.map(f64::from);
-        let (value, slope) = value_and_slope::<N>(query.kernel, v);
-        sum += value * strength;
-        let pull = slope * strength * block.inverse_square * 2.0;
-        for (sum, offset) in gradient.iter_mut().zip([x, y, z]) {
-            *sum += offset * pull;
+        let (values, slopes) = value_and_slope::<N>(query.kernel, v);
+        let values = values * strength;
+        let pull = slopes * (strength * block.inverse_square * 2.0);
+        let pulls: [_; 3] = array_of(|axis| offset[axis] * pull);
+        for (lane, part) in values.0.into_iter().enumerate() {
+            value += part;
+            gradient += DVec3::from(array_of(|axis| pulls[axis].0[lane]));
         }
     }
-    let gradient = DVec3::from(array_of(|axis| gradient[axis].sum()));
-    (sum.sum() - query.threshold, gradient)
+    let [x, y, z] = (gradient * direction).to_array();
+    Excess { value, gradient, slope: x + y + z }
 }
