@@ -15,7 +15,7 @@ use harness::numbers::{decimal, grouped};
 use metaball::{
     AnimateOptions, AnimatedScene, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions,
     Emptiness, Error, FrameOutcome, Method, NumberedPath, Outputs, Overrides, Progress,
-    ReadOptions, Stage, Summary, Tally, animate, draw_to_files, save_legend,
+    ReadOptions, Stage, Summary, Tally, animate, draw_to_files,
 };
 use metaball_core::{Color, Picture, Scene};
 
@@ -147,7 +147,11 @@ impl RenderArgs {
             options.clip = options.clip.and(&cell.region()?);
         }
         let inputs = inputs(&scene).into_iter().chain(reading.topology.clone()).collect();
-        let outputs = Outputs { image: out, hits, light: light_out, resume, inputs };
+        let mut outputs = Outputs { hits, light: light_out, resume, inputs, ..Outputs::image(out) };
+        let legend = file.and_then(|file| file.legend.as_ref());
+        if let Some(legend) = legend {
+            outputs = outputs.with_legend(legend)?;
+        }
         let mut bars = Bars::default();
         let summary = draw_to_files(&bench.scene, &bench.camera, &options, &outputs, |progress| {
             bars.show(progress);
@@ -165,10 +169,12 @@ impl RenderArgs {
         for (name, path) in files {
             line(says, name, &path.display().to_string());
         }
-        if let Some(legend) = file.and_then(|file| file.legend.as_ref()) {
-            let path = outputs.image.with_extension("legend.svg");
-            save_legend(legend, &path)?;
-            line(says, "legend", &path.display().to_string());
+        match (legend, &outputs.legend) {
+            (_, Some((_, path))) => line(says, "legend", &path.display().to_string()),
+            (Some(_), None) => {
+                line(says, "legend", "none: the picture is no file to put it beside");
+            }
+            (None, None) => {}
         }
         Ok(())
     }

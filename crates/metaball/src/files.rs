@@ -5,18 +5,22 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 use metaball_core::{Camera, Color, Hit, Scene, ValueRange, View};
-use picture_files::{HitsFile, LightFile, PictureFile, RunFile, refuse_overlap};
+use particle_files::Legend;
+use picture_files::{
+    HitsFile, LightFile, PictureFile, RunFile, Target, ensure_writable, refuse_overlap,
+};
 
 use crate::band::{Planes, bands};
 use crate::cpu::{Built, Finisher, Painter};
 use crate::draw::{Attempt, no_light, on_adapter};
 use crate::inputs::inputs;
+use crate::legend::save_legend;
 use crate::spool::{Description, Spool};
 use crate::summary::{Progress, Stage, Summary, Tally, asked};
 use crate::{DrawOptions, Drawing, Error};
 
 /// Where a picture goes.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Outputs {
     /// The picture: a [`PictureFile`], `.png`, `.jpg` or `.jpeg`.
     pub image: PathBuf,
@@ -24,6 +28,8 @@ pub struct Outputs {
     pub hits: Option<PathBuf>,
     /// Linear light: a [`LightFile`], `.exr`. Only with ray traced light.
     pub light: Option<PathBuf>,
+    /// What the colours say, as SVG, and where it goes: see [`Outputs::with_legend`].
+    pub legend: Option<(Legend, PathBuf)>,
     /// Go on with the bands that an interrupted run left beside the image, if there are any.
     pub resume: bool,
     /// Files that are never written over: those that the scene is read from, such as
@@ -34,12 +40,37 @@ pub struct Outputs {
 impl Outputs {
     /// A picture alone, drawn from its first row on.
     pub fn image(path: impl Into<PathBuf>) -> Self {
-        Self { image: path.into(), hits: None, light: None, resume: false, inputs: Vec::new() }
+        Self {
+            image: path.into(),
+            hits: None,
+            light: None,
+            legend: None,
+            resume: false,
+            inputs: Vec::new(),
+        }
+    }
+
+    /// With a legend beside the picture, named like it with `.legend.svg` for an ending; without one where the
+    /// picture goes to a device, a pipe or an open file, beside which there is no place.
+    ///
+    /// # Errors
+    /// When the picture's path names no file.
+    pub fn with_legend(self, legend: &Legend) -> Result<Self, Error> {
+        let legend = match Target::of(&self.image)? {
+            Target::File(_) => Some((legend.clone(), self.image.with_extension("legend.svg"))),
+            Target::Stream(_) => None,
+        };
+        Ok(Self { legend, ..self })
     }
 
     fn files(&self) -> Vec<RunFile> {
-        let others = [("file of hits", &self.hits), ("file of light", &self.light)];
-        let others = others.into_iter().filter_map(|(what, path)| Some((what, path.clone()?)));
+        let legend = self.legend.as_ref().map(|(_, path)| path);
+        let others = [
+            ("file of hits", self.hits.as_ref()),
+            ("file of light", self.light.as_ref()),
+            ("legend", legend),
+        ];
+        let others = others.into_iter().filter_map(|(what, path)| Some((what, path?.clone())));
         [("picture", self.image.clone())].into_iter().chain(others).collect()
     }
 }
@@ -69,7 +100,7 @@ pub fn draw_to_files(
     camera: &Camera,
     options: &DrawOptions,
     outputs: &Outputs,
-    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+    progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Summary, Error> {
     if outputs.light.is_some() && !options.light.is_asked() {
         return Err(no_light());
@@ -77,16 +108,33 @@ pub fn draw_to_files(
     let view = options.view(scene, camera)?;
     refuse_overlap(&outputs.files(), &inputs(&outputs.inputs, &options.light))?;
     drop(Files::create(outputs, &view)?);
+    if let Some((_, path)) = &outputs.legend {
+        ensure_writable(path)?;
+    }
+    let summary = draw_files(scene, &view, options, outputs, progress)?;
+    if let Some((legend, path)) = &outputs.legend {
+        save_legend(legend, path)?;
+    }
+    Ok(summary)
+}
+
+/// Draws to the picture's files.
+fn draw_files(
+    scene: &Scene,
+    view: &View,
+    options: &DrawOptions,
+    outputs: &Outputs,
+    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Summary, Error> {
     let computed_by = if outputs.resume && Spool::is_beside(&outputs.image)? {
         "the CPU, which began the picture".to_owned()
     } else {
-        match on_adapter(&options.open()?, options, scene, &view, &mut progress)? {
-            Attempt::Drawn(drawing) => return save(*drawing, outputs, &view),
+        match on_adapter(&options.open()?, options, scene, view, &mut progress)? {
+            Attempt::Drawn(drawing) => return save(*drawing, outputs, view),
             Attempt::Left { computed_by } => computed_by,
         }
     };
-    let job = Job { scene, view: &view, options, outputs, computed_by, band_pixels: None };
-    job.draw(progress)
+    Job { scene, view, options, outputs, computed_by, band_pixels: None }.draw(progress)
 }
 
 /// Writes what was drawn at once.
@@ -259,6 +307,28 @@ mod tests {
     }
 
     const NEVER: (Stage, u32) = (Stage::Writing, 71);
+
+    fn legend() -> Legend {
+        Legend { title: "charge".to_owned(), scale: particle_files::Scale::Numbers(0.0, 1.0) }
+    }
+
+    #[test]
+    fn a_legend_lies_beside_the_picture() {
+        let bench = bench("colors-100");
+        let folder = tempfile::tempdir().expect("a folder");
+        let draw = |outputs: &Outputs| {
+            let all = |_| ControlFlow::Continue(());
+            draw_to_files(&bench.scene, &bench.camera, &options(Picture::Phong), outputs, all)
+        };
+        let outputs = Outputs::image(folder.path().join("image.png"));
+        draw(&outputs.with_legend(&legend()).expect("beside it")).expect("drawn");
+        let names: Vec<_> = files(folder.path()).into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["image.legend.svg", "image.png"]);
+        if cfg!(unix) {
+            let null = Outputs::image("/dev/null").with_legend(&legend()).expect("a device");
+            assert_eq!(null.legend, None);
+        }
+    }
 
     /// Draws with five bands, and breaks off when so many rows are there, or written.
     fn draw_until(
@@ -439,10 +509,16 @@ mod tests {
         assert!(refused(sky, &in_sky).contains("for the file of light, found the environment"));
         let twice = Outputs { hits: Some(exr.clone()), light: Some(exr.clone()), ..outputs };
         assert!(refused(twice, &shadows).contains("for the file of light, found the file of hits"));
-        for path in [&png, &exr] {
+        let svg = folder.path().join("b.legend.svg");
+        fs::write(&svg, "mine").expect("written");
+        let drawing =
+            Outputs { inputs: vec![svg.clone()], ..Outputs::image(folder.path().join("b.png")) };
+        let drawing = drawing.with_legend(&legend()).expect("beside it");
+        assert!(refused(drawing, &shadows).contains("for the legend, found the scene"));
+        for path in [&png, &exr, &svg] {
             assert_eq!(fs::read(path).expect("there"), b"mine");
         }
-        assert_eq!(files(folder.path()).len(), 2);
+        assert_eq!(files(folder.path()).len(), 3);
     }
 
     #[test]
