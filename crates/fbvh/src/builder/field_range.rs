@@ -149,6 +149,20 @@ mod tests {
         )
     }
 
+    /// A builder of certified trees of these balls.
+    fn builder(kernel: Kernel, threshold: f32, balls: &[Ball]) -> Builder {
+        Builder {
+            kernel,
+            threshold,
+            max_depth: 64,
+            radius: common(balls, Ball::radius),
+            strength: common(balls, |ball| ball.strength),
+            greatest_strength: greatest_strength(balls),
+            options: Options::certified(),
+            grown: GrownPieces::default(),
+        }
+    }
+
     /// The field's range over the corners, faces and inside of a box, and the points nearest to the
     /// centres, from f64.
     fn sampled(kernel: Kernel, balls: &[Ball], bounds: &Aabb) -> (f64, f64) {
@@ -194,16 +208,7 @@ mod tests {
                 if threshold <= 0.0 {
                     continue;
                 }
-                let builder = Builder {
-                    kernel,
-                    threshold,
-                    max_depth: 64,
-                    radius: common(&balls, Ball::radius),
-                    strength: common(&balls, |ball| ball.strength),
-                    greatest_strength: greatest_strength(&balls),
-                    options: Options::certified(),
-                    grown: GrownPieces::default(),
-                };
+                let builder = builder(kernel, threshold, &balls);
                 let threshold = f64::from(threshold);
                 if builder.is_solid(&balls, &bounds) {
                     prop_assert!(least > threshold, "solid, but {} <= {}", least, threshold);
@@ -213,14 +218,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig {
-            cases: 2000,
-            failure_persistence: None,
-            ..ProptestConfig::default()
-        })]
 
         /// T is set to the bounds themselves, where sums in f32 are on either side of it by chance.
         #[test]
@@ -228,18 +225,8 @@ mod tests {
             (balls, bounds) in balls_and_box(),
             kernel in prop::sample::select(Kernel::all().collect::<Vec<_>>()),
         ) {
-            let builder = |threshold: f32| Builder {
-                kernel,
-                threshold,
-                max_depth: 64,
-                radius: common(&balls, Ball::radius),
-                strength: common(&balls, |ball| ball.strength),
-                greatest_strength: greatest_strength(&balls),
-                options: Options::certified(),
-                grown: GrownPieces::default(),
-            };
             let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-            let any = builder(1.0);
+            let any = builder(kernel, 1.0, &balls);
             let sum = |offset: fn(DVec3, DVec3, DVec3) -> DVec3| {
                 let part =
                     |ball: &Ball| any.part_at(ball, offset(ball.center().as_dvec3(), low, high));
@@ -252,7 +239,7 @@ mod tests {
                     if threshold < f64::from(f32::MIN_POSITIVE) {
                         continue;
                     }
-                    let builder = builder(threshold as f32);
+                    let builder = builder(kernel, threshold as f32, &balls);
                     let threshold = f64::from(builder.threshold);
                     if is_least && builder.is_solid(&balls, &bounds) {
                         prop_assert!(least > threshold * (1.0 + ROUNDING));
@@ -269,16 +256,7 @@ mod tests {
     fn one_ball_decides_what_it_holds() {
         let ball = [Ball::new(Vec3::ZERO, 2.0, 1.0, 0)];
         // The quartic is 9/16 at distance 1 and 1/16 at √3.
-        let builder = |threshold| Builder {
-            kernel: Kernel::QUARTIC,
-            threshold,
-            max_depth: 64,
-            radius: Some(2.0),
-            strength: Some(1.0),
-            greatest_strength: 1.0,
-            options: Options::certified(),
-            grown: GrownPieces::default(),
-        };
+        let builder = |threshold| builder(Kernel::QUARTIC, threshold, &ball);
         let bounds = Aabb { min: Vec3::new(1.0, -1.0, -1.0), max: Vec3::ONE };
         assert!(builder(0.0624).is_solid(&ball, &bounds));
         assert!(!builder(0.0626).is_solid(&ball, &bounds));

@@ -7,14 +7,14 @@
 //! rises faster than its slope's error between the two, there is one root.
 //!
 //! # Why the bounds hold
-//! The box is cut into 2³ or 4³ cells. In a cell a ball's v = 1 − r²/R² has an exact range, on which its kernel is
-//! replaced by a quadratic p(v) with a bound of |k − p| and of |k′ − p′|
+//! The box is cut into 2³ or 4³ cells. In a cell a ball's v = 1 − r²/R² has an exact range, on which its
+//! kernel is replaced by a quadratic p(v) with a bound of |k − p| and of |k′ − p′|
 //! (`trace/certified/leaf_polynomial/quadratic.rs`); a ball that covers the cell is its own quadratic for
 //! α = 2. v is a polynomial of degree two in space, so all p(v) of a cell sum up to one polynomial of
 //! degree four, from which P is subtracted coefficient by coefficient, and what is left is bounded by the
 //! sum of its coefficients' absolute values (`trace/certified/leaf_polynomial/cells.rs`). To that the
-//! bounds of the quadratics are added. P itself is a fit
-//! (`trace/certified/leaf_polynomial/fit.rs`), of which nothing is assumed.
+//! bounds of the quadratics are added. P itself is a fit (`trace/certified/leaf_polynomial/fit.rs`), of
+//! which nothing is assumed.
 //!
 //! # Rounding
 //! Sums of n terms are right to (n + 32)u times the sum of what the terms are made of, u = 2⁻²⁴; that

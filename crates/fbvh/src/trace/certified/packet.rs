@@ -200,13 +200,12 @@ impl<F: Field> Traversal<'_, F> {
         let interval = packet.interval(exact, &bounds);
         let lanes = lanes & interval.0.is_at_most(interval.1).bits();
         let rays = lanes.count_ones();
-        if list.is_empty() || rays == 0 {
-            self.each(lanes, |traversal, lane| traversal.visit_alone(leaf, lane));
+        if rays == 0 {
             return;
         }
         let PacketScratch { single, leaves } = &mut *self.scratch;
         let polynomial = self.tree.polynomial(self.query, single.arch, leaf, rays);
-        if rays < 2 && polynomial.is_none() {
+        if list.is_empty() || rays < 2 && polynomial.is_none() {
             self.each(lanes, |traversal, lane| traversal.visit_alone(leaf, lane));
             return;
         }
