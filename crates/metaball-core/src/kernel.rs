@@ -1,9 +1,17 @@
 //! Kernels: the falloff of a ball, its slope and its inverse.
 
+mod profile;
+mod real;
+
 use std::fmt;
+use std::str::FromStr;
 
 use thiserror::Error;
 
+pub use self::profile::{
+    CubicSpline, Gaussian, Profile, QuinticSpline, WendlandC2, WendlandC4, WendlandC6,
+};
+pub use self::real::Real;
 use crate::Metaball;
 
 /// Exponent of a power kernel: an integer from 1 to 8.
@@ -17,16 +25,36 @@ impl Exponent {
     }
 }
 
+/// Where a Gaussian is cut, in standard deviations: from 1 to 6 in steps of a hundredth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Cut(u16);
+
+impl Cut {
+    /// The value, 1 to 6.
+    pub fn get(self) -> f64 {
+        f64::from(self.0) / 100.0
+    }
+}
+
 /// The falloff k(s), s = r²/R², shared by all balls of a scene: 1 at the centre, falling, 0 from the
 /// support radius R on.
 ///
-/// Formulas are in the *depth* v = 1 − s, which is a parabola along any ray:
+/// Formulas are in the *depth* v = 1 − s, which is a parabola along any ray; ρ = r/R:
 ///
 /// | kernel | k | source |
 /// | --- | --- | --- |
 /// | power α | v^α | Gourmel et al. 2010, section 2.1; α = 2 is Kanamori's quartic |
 /// | Wyvill | v²(5 + 4v)/9 | the polynomial of degree six in r of Kanamori et al. 2008, rewritten in v |
-/// | Perlin | (1−ρ)³(1 + 3ρ + 6ρ²), ρ = r/R | 1 − 10ρ³ + 15ρ⁴ − 6ρ⁵ of Illés and Szécsi, as a product, which does not cancel at the rim |
+/// | Perlin | (1−ρ)³(1 + 3ρ + 6ρ²) | 1 − 10ρ³ + 15ρ⁴ − 6ρ⁵ of Illés and Szécsi, as a product, which does not cancel at the rim |
+/// | cubic spline | 1 − 6ρ²(1−ρ), from ρ = ½ on 2(1−ρ)³ | M₄ of SPH, R = 2h ([`CubicSpline`]) |
+/// | quintic spline | ((3−q)⁵ − 6(2−q)⁵ + 15(1−q)⁵)/66, q = 3ρ | M₆ of SPH, R = 3h ([`QuinticSpline`]) |
+/// | Wendland C² | (1−ρ)⁴(1 + 4ρ) | [`WendlandC2`] |
+/// | Wendland C⁴ | (1−ρ)⁶(1 + 6ρ + 35/3 ρ²) | [`WendlandC4`] |
+/// | Wendland C⁶ | (1−ρ)⁸(1 + 8ρ + 25ρ² + 32ρ³) | [`WendlandC6`] |
+/// | Gaussian | (e^{cv} − 1)/(eᶜ − 1), c = cut²/2 | cut at so many standard deviations, and lowered to reach 0 there ([`Gaussian`]) |
+///
+/// The SPH kernel W(r, h) is W(0, h)·k, so a particle of mass m and density ρ has the strength
+/// m/ρ·W(0, h): [`Kernel::normalization`].
 ///
 /// ```
 /// use metaball_core::{Kernel, Metaball, glam::Vec3};
@@ -44,6 +72,60 @@ pub enum Kernel {
     Wyvill,
     /// Perlin's polynomial of degree five in r; not a polynomial along a ray.
     Perlin,
+    /// The cubic B-spline M₄ of r; not a polynomial along a ray.
+    CubicSpline,
+    /// The quintic B-spline M₆ of r; not a polynomial along a ray.
+    QuinticSpline,
+    /// Wendland's function of smoothness C²; not a polynomial along a ray.
+    WendlandC2,
+    /// Wendland's function of smoothness C⁴; not a polynomial along a ray.
+    WendlandC4,
+    /// Wendland's function of smoothness C⁶; not a polynomial along a ray.
+    WendlandC6,
+    /// A Gaussian, cut and lowered to reach 0. Make one with [`Kernel::gaussian`].
+    Gaussian(Cut),
+}
+
+/// A computation that is compiled for each profile.
+pub trait ByProfile {
+    /// What comes of it.
+    type Output;
+
+    /// Runs it.
+    fn run<P: Profile>(self, profile: P) -> Self::Output;
+}
+
+/// What an expression gives for the profile of a kernel that has one.
+macro_rules! by_profile {
+    ($kernel:expr, $profile:ident => $result:expr, else $otherwise:expr) => {
+        match $kernel {
+            Kernel::Power(_) | Kernel::Wyvill | Kernel::Perlin => $otherwise,
+            Kernel::CubicSpline => {
+                let $profile = CubicSpline;
+                $result
+            }
+            Kernel::QuinticSpline => {
+                let $profile = QuinticSpline;
+                $result
+            }
+            Kernel::WendlandC2 => {
+                let $profile = WendlandC2;
+                $result
+            }
+            Kernel::WendlandC4 => {
+                let $profile = WendlandC4;
+                $result
+            }
+            Kernel::WendlandC6 => {
+                let $profile = WendlandC6;
+                $result
+            }
+            Kernel::Gaussian(cut) => {
+                let $profile = Gaussian::cut_at(cut.get());
+                $result
+            }
+        }
+    };
 }
 
 /// An exponent that no power kernel has.
@@ -54,7 +136,28 @@ pub struct ExponentError {
     pub found: i64,
 }
 
+/// A cut that no Gaussian has.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("cut of a Gaussian: needed 1 to 6 standard deviations in steps of 0.01, found {found}")]
+pub struct CutError {
+    /// The number given.
+    pub found: f64,
+}
+
+/// A name that no kernel has.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("kernel: needed {}, found {found:?}", Kernel::NAMES)]
+pub struct KernelNameError {
+    /// The name given.
+    pub found: String,
+}
+
 impl Kernel {
+    /// The names that a kernel can be called by.
+    pub const NAMES: &str = "power-1 to power-8 (power is power-2, quartic too, and poly6 is power-3), wyvill, \
+        perlin, cubic-spline, quintic-spline, wendland-c2, wendland-c4, wendland-c6, or gaussian-1 to \
+        gaussian-6 with the cut in standard deviations (gaussian is gaussian-3)";
+
     /// The quartic, the power kernel with α = 2.
     pub const QUARTIC: Self = Self::Power(Exponent(2));
 
@@ -69,9 +172,41 @@ impl Kernel {
         }
     }
 
-    /// Every kernel there is, the power kernels by rising exponent first.
+    /// A Gaussian that is cut at so many standard deviations, which are its support radius, and lowered to
+    /// reach 0 there: with a jump the surface would have holes.
+    ///
+    /// # Errors
+    /// When the cut is not from 1 to 6, or no multiple of 0.01.
+    pub fn gaussian(deviations: f64) -> Result<Self, CutError> {
+        let hundredths = (100.0 * deviations).round();
+        let is_exact = (hundredths / 100.0 - deviations).abs() <= 1e-9;
+        if is_exact && (100.0..=600.0).contains(&hundredths) {
+            Ok(Self::Gaussian(Cut(hundredths as u16)))
+        } else {
+            Err(CutError { found: deviations })
+        }
+    }
+
+    /// Every kernel there is, the power kernels by rising exponent first; of the Gaussians the one that is
+    /// cut at three standard deviations.
     pub fn all() -> impl Iterator<Item = Self> {
-        (1..=8).map(|exponent| Self::Power(Exponent(exponent))).chain([Self::Wyvill, Self::Perlin])
+        let others = [
+            Self::Wyvill,
+            Self::Perlin,
+            Self::CubicSpline,
+            Self::QuinticSpline,
+            Self::WendlandC2,
+            Self::WendlandC4,
+            Self::WendlandC6,
+            Self::Gaussian(Cut(300)),
+        ];
+        (1..=8).map(|exponent| Self::Power(Exponent(exponent))).chain(others)
+    }
+
+    /// Runs a computation for the kernel's profile; `None` for a power kernel, Wyvill's and Perlin's.
+    #[inline(always)]
+    pub fn with_profile<C: ByProfile>(self, computation: C) -> Option<C::Output> {
+        by_profile!(self, profile => Some(computation.run(profile)), else None)
     }
 
     /// The kernel at `squared_ratio` = r²/R². In \[0, 1\]; 0 from the support radius on.
@@ -88,6 +223,7 @@ impl Kernel {
                 // 1 − ρ = v/(1 + ρ): no cancellation at the rim.
                 (v / (1.0 + rho)).powi(3) * (1.0 + 3.0 * rho + 6.0 * squared_ratio)
             }
+            _ => by_profile!(self, profile => profile.value(v), else 0.0),
         }
     }
 
@@ -109,7 +245,37 @@ impl Kernel {
                 let rho = squared_ratio.max(0.0).sqrt();
                 -15.0 * rho * (v / (1.0 + rho)).powi(2)
             }
+            _ => -by_profile!(self, profile => profile.slope(v), else 0.0),
         }
+    }
+
+    /// The greatest slope by v = 1 − r²/R² that the kernel has anywhere.
+    pub fn steepest(self) -> f64 {
+        match self {
+            Self::Perlin => 20.0 / 9.0,
+            // Convex in v.
+            _ => -self.slope(0.0),
+        }
+    }
+
+    /// Whether the slope jumps at the rim.
+    pub fn has_kink(self) -> bool {
+        matches!(self, Self::Power(Exponent(1)) | Self::Gaussian(_))
+    }
+
+    /// 1/(4π∫k(r²/R²)r²dr) in units of 1/R³: W(0, h)·R³ of the SPH kernel with this shape, whose integral
+    /// over space is 1.
+    pub fn normalization(self) -> f64 {
+        // Gauss's rule on parts of ρ from 0 to 1, whose ends are the knots of all splines.
+        const PARTS: u32 = 48;
+        const NODE: f64 = 0.577_350_269_189_625_8;
+        let at = |rho: f64| self.value(rho * rho) * rho * rho;
+        let half = 0.5 / f64::from(PARTS);
+        let middle = |part: u32| (2.0 * f64::from(part) + 1.0) * half;
+        let integral: f64 = (0..PARTS)
+            .map(|part| half * (at(middle(part) - NODE * half) + at(middle(part) + NODE * half)))
+            .sum();
+        1.0 / (4.0 * std::f64::consts::PI * integral)
     }
 
     /// The kernel in f32 at depth v = 1 − r²/R², in the order of operations of the shaders; 0 for v ≤ 0.
@@ -124,6 +290,7 @@ impl Kernel {
                 let rest = 1.0 - rho;
                 rest * rest * rest * (1.0 + 3.0 * rho + 6.0 * rho * rho)
             }
+            _ => by_profile!(self, profile => profile.value(v), else 0.0),
         }
     }
 
@@ -140,6 +307,7 @@ impl Kernel {
                 let rho = (1.0 - v).max(0.0).sqrt();
                 15.0 * rho * (1.0 - rho) * (1.0 - rho)
             }
+            _ => by_profile!(self, profile => profile.slope(v), else 0.0),
         }
     }
 
@@ -154,7 +322,7 @@ impl Kernel {
             Self::Power(exponent) => value.powf(f64::from(exponent.0).recip()),
             Self::Wyvill => wyvill_depth(value),
             // Increasing in v on [0, 1].
-            Self::Perlin => bisect(|v| self.value(1.0 - v) - value),
+            _ => bisect(|v| self.value(1.0 - v) - value),
         };
         Some((1.0 - v).max(0.0).sqrt())
     }
@@ -166,8 +334,8 @@ impl Kernel {
         Some(ratio * f64::from(ball.radius))
     }
 
-    /// The coefficients c of k = Σ cₙ vⁿ, v = 1 − r²/R², constant first. `None` for Perlin's kernel,
-    /// which is no polynomial in v.
+    /// The coefficients c of k = Σ cₙ vⁿ, v = 1 − r²/R², constant first. `None` for a kernel
+    /// that is no polynomial in v.
     ///
     /// Along a ray at distance d from the centre, at t from the centre's projection,
     /// v = (R² − d² − t²)/R²: so k is a polynomial along the ray, of degree 2(c.len() − 1).
@@ -176,7 +344,7 @@ impl Kernel {
         match self {
             Self::Power(exponent) => Some(&POWERS[8 - usize::from(exponent.0)..]),
             Self::Wyvill => Some(&[0.0, 0.0, 5.0 / 9.0, 4.0 / 9.0]),
-            Self::Perlin => None,
+            _ => None,
         }
     }
 
@@ -187,13 +355,38 @@ impl Kernel {
 }
 
 impl fmt::Display for Kernel {
-    /// The name that scene files and records use: `power-2`, `wyvill`, `perlin`.
+    /// The name that scene files and records use: `power-2`, `wyvill`, `cubic-spline`, `gaussian-3`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Power(exponent) => write!(formatter, "power-{}", exponent.0),
             Self::Wyvill => formatter.write_str("wyvill"),
             Self::Perlin => formatter.write_str("perlin"),
+            Self::CubicSpline => formatter.write_str("cubic-spline"),
+            Self::QuinticSpline => formatter.write_str("quintic-spline"),
+            Self::WendlandC2 => formatter.write_str("wendland-c2"),
+            Self::WendlandC4 => formatter.write_str("wendland-c4"),
+            Self::WendlandC6 => formatter.write_str("wendland-c6"),
+            Self::Gaussian(cut) => write!(formatter, "gaussian-{}", cut.get()),
         }
+    }
+}
+
+impl FromStr for Kernel {
+    type Err = KernelNameError;
+
+    /// The kernel of a name: one of [`Kernel::NAMES`].
+    fn from_str(name: &str) -> Result<Self, KernelNameError> {
+        let gaussian = |cut: &str| Self::gaussian(cut.parse().ok()?).ok();
+        let named = match name {
+            "power" | "quartic" => Some(Self::QUARTIC),
+            "poly6" => Some(Self::Power(Exponent(3))),
+            "gaussian" => Some(Self::Gaussian(Cut(300))),
+            _ => match name.strip_prefix("gaussian-") {
+                Some(cut) => gaussian(cut),
+                None => Self::all().find(|kernel| kernel.to_string() == name),
+            },
+        };
+        named.ok_or_else(|| KernelNameError { found: name.to_owned() })
     }
 }
 
@@ -291,12 +484,14 @@ mod tests {
         }
 
         /// v⁸ in f32 makes at most four roundings of 6e-8 relative, Wyvill five; Perlin's ρ loses up
-        /// to half its bits near the rim, but there the value is below its cube.
+        /// to half its bits near the rim, but there the value is below its cube. Of a Gaussian that is cut
+        /// far out the exponent's own rounding tells.
         #[test]
         fn single_precision_agrees(kernel in any_kernel(), v in 0.0f32..=1.0) {
             let s = 1.0 - f64::from(v);
             prop_assert!((f64::from(kernel.value_at_depth(v)) - kernel.value(s)).abs() < 1e-6);
-            prop_assert!((f64::from(kernel.slope_at_depth(v)) + kernel.slope(s)).abs() < 4e-6);
+            let allowed = 1e-6 * kernel.steepest().max(4.0);
+            prop_assert!((f64::from(kernel.slope_at_depth(v)) + kernel.slope(s)).abs() < allowed);
         }
 
         #[test]
@@ -314,6 +509,60 @@ mod tests {
             assert_eq!(kernel.ratio_at(-0.1), None);
             assert_eq!(kernel.ratio_at(1.1), None);
             assert_eq!(kernel.ratio_at(f64::NAN), None);
+        }
+    }
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        let gaussian = Kernel::gaussian(2.25).expect("legal");
+        for kernel in Kernel::all().chain([gaussian]) {
+            assert_eq!(kernel.to_string().parse(), Ok(kernel));
+        }
+        assert_eq!(gaussian.to_string(), "gaussian-2.25");
+        for (alias, name) in [("power", "power-2"), ("quartic", "power-2"), ("poly6", "power-3")] {
+            assert_eq!(
+                alias.parse::<Kernel>().map(|kernel| kernel.to_string()),
+                Ok(name.to_owned())
+            );
+        }
+        for name in ["gauss", "gaussian-0.5", "gaussian-1.001", "gaussian-", "power-9", ""] {
+            let error = name.parse::<Kernel>().expect_err("no kernel").to_string();
+            assert!(
+                error.starts_with("kernel: needed power-1") && error.contains(&format!("{name:?}"))
+            );
+        }
+        let error = Kernel::gaussian(7.0).expect_err("too far out").to_string();
+        assert!(error.ends_with("in steps of 0.01, found 7"), "{error}");
+    }
+
+    /// W(0, h)·R³ of the literature, h being R, R/2 or R/3; for the power kernel with α = 3 that of Müller et
+    /// al. 2003 (poly6), for a Gaussian nearly (2π)^(−3/2)·cut³ if it is cut far out.
+    #[test]
+    fn normalizations_are_those_of_the_literature() {
+        let pi = std::f64::consts::PI;
+        let gaussian = Kernel::gaussian(6.0).expect("legal");
+        let known = [
+            (Kernel::CubicSpline, 8.0 / pi),
+            (Kernel::QuinticSpline, 27.0 * 66.0 / (120.0 * pi)),
+            (Kernel::WendlandC2, 21.0 / (2.0 * pi)),
+            (Kernel::WendlandC4, 495.0 / (32.0 * pi)),
+            (Kernel::WendlandC6, 1365.0 / (64.0 * pi)),
+            (Kernel::Power(Exponent(3)), 315.0 / (64.0 * pi)),
+            (gaussian, 216.0 / (2.0 * pi).powf(1.5)),
+        ];
+        for (kernel, known) in known {
+            approx::assert_relative_eq!(kernel.normalization(), known, max_relative = 2e-6);
+        }
+    }
+
+    /// The greatest slope is where it says, and at the rim it is 0 unless there is a kink.
+    #[test]
+    fn slopes_are_nowhere_steeper() {
+        for kernel in Kernel::all() {
+            let most = (0..=10_000).map(|step| -kernel.slope(f64::from(step) * 1e-4));
+            let most = most.fold(0.0, f64::max);
+            assert!((most / kernel.steepest() - 1.0).abs() < 1e-6, "{kernel}: {most}");
+            assert_eq!(-kernel.slope(1.0 - 1e-9) > 1e-6, kernel.has_kink(), "{kernel}");
         }
     }
 

@@ -57,7 +57,7 @@ mod color;
 pub mod gpu;
 mod host_method;
 mod host_tracer;
-mod kernel;
+pub mod kernel;
 mod picture;
 mod ray;
 pub mod reference;
@@ -73,7 +73,7 @@ pub use clip::{Clip, ClipError, Section};
 pub use color::Color;
 pub use host_method::{HostError, HostMethod, HostRenderer};
 pub use host_tracer::{HostTracer, RayQuery, SurfaceHit};
-pub use kernel::{Exponent, ExponentError, Kernel};
+pub use kernel::{Cut, CutError, Exponent, ExponentError, Kernel, KernelNameError};
 pub use picture::{Image, Picture, Shaded, ValueRange};
 pub use ray::{Hit, NO_LIMIT, PackedHit, Ray, Verdict};
 pub use scene::{

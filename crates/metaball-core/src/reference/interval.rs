@@ -23,10 +23,11 @@ impl Interval<'_> {
         self.active.iter().map(|&index| self.chords[index].relative_to(self.start))
     }
 
-    /// Field and its derivative by u.
+    /// Field and its derivative by u; in a segment, at whose ends some kernels have kinks, that from inside.
     pub(super) fn field(&self, u: f64) -> (f64, f64) {
+        const INSIDE: f64 = 1.0 - f64::EPSILON / 2.0;
         self.bumps().fold((0.0, 0.0), |(value, slope), bump| {
-            let squared_ratio = 1.0 - bump.depth(u);
+            let squared_ratio = (1.0 - bump.depth(u)).min(INSIDE);
             let turn = 2.0 * bump.steepness * (u - bump.middle);
             (
                 value + bump.strength * self.kernel.value(squared_ratio),

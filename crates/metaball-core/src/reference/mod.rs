@@ -7,12 +7,12 @@
 //! Along a ray each ball's v = 1 − r²/R² is a parabola, positive on the ball's *chord*. The ends of
 //! all chords cut the ray into *segments* with a fixed set of balls. There the field is one
 //! polynomial for the kernels that have [coefficients](crate::Kernel::coefficients), and twice
-//! continuously differentiable for Perlin's. A segment is halved until each *piece* is certainly
+//! continuously differentiable for the others. A segment is halved until each *piece* is certainly
 //! below T, certainly above, or monotonic:
 //!
 //! - polynomials in Bernstein form (Farouki 2012, "The Bernstein polynomial basis: a centennial
 //!   retrospective"), whose coefficients enclose the values and whose differences enclose the slope;
-//! - Perlin's kernel by the exact range of each ball, which rises and then falls along the ray,
+//! - the others by the exact range of each ball, which rises and then falls along the ray,
 //!   and by bounds of the second derivative.
 //!
 //! The crossing in a monotonic piece is then found on the field itself. Pieces are visited front to
@@ -43,9 +43,10 @@
 
 mod bernstein;
 mod chord;
+mod curvature;
+mod curved;
 mod interval;
 mod marching;
-mod perlin;
 mod piece;
 mod sweep;
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use super::{
     bernstein::Bernstein,
+    curved::Curved,
     interval::Interval,
-    perlin::Perlin,
     piece::{Piece, Trend},
 };
 use crate::Verdict;
@@ -85,7 +85,7 @@ impl Walk {
     pub(super) fn cross(&mut self, segment: &Interval<'_>) -> ControlFlow<()> {
         match segment.kernel.coefficients() {
             Some(kernel) => self.follow(segment, Bernstein::new(segment, kernel)),
-            None => self.follow(segment, Perlin::new(segment)),
+            None => self.follow(segment, Curved::new(segment)),
         }
     }
 
