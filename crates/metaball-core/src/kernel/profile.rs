@@ -58,7 +58,7 @@ impl Profile for CubicSpline {
         let rest = v / (R::of(1.0) + rho);
         let inner = R::of(1.0) - R::of(6.0) * (rho * rho * rest);
         let outer = R::of(2.0) * power::<_, 3>(rest);
-        if rho < R::of(0.5) { inner } else { outer }
+        rho.choose(R::of(0.5), inner, outer)
     }
 
     #[inline(always)]
@@ -67,7 +67,7 @@ impl Profile for CubicSpline {
         let rest = v / (R::of(1.0) + rho);
         let inner = R::of(6.0) - R::of(9.0) * rho;
         let outer = R::of(3.0) * rest * rest / rho;
-        if rho < R::of(0.5) { inner } else { outer }
+        rho.choose(R::of(0.5), inner, outer)
     }
 
     #[inline(always)]
@@ -75,7 +75,7 @@ impl Profile for CubicSpline {
         let rho = ratio(v);
         let inner = R::of(4.5) / rho;
         let outer = R::of(1.5) * v / (rho * rho * rho);
-        if rho < R::of(0.5) { inner } else { outer }
+        rho.choose(R::of(0.5), inner, outer)
     }
 
     fn peak(self) -> (f64, f64) {
@@ -106,7 +106,7 @@ impl Profile for QuinticSpline {
         let square = q * q;
         let inner = R::of(66.0) - square * (R::of(60.0) - square * (R::of(30.0) - R::of(10.0) * q));
         let outer = power::<_, 5>(a) - R::of(6.0) * power::<_, 5>(b);
-        (if q < R::of(1.0) { inner } else { outer }) * R::of(1.0 / 66.0)
+        q.choose(R::of(1.0), inner, outer) * R::of(1.0 / 66.0)
     }
 
     #[inline(always)]
@@ -114,7 +114,7 @@ impl Profile for QuinticSpline {
         let (q, a, b) = Self::parts(v);
         let inner = R::of(60.0) - q * q * (R::of(60.0) - R::of(25.0) * q);
         let outer = (R::of(2.5) * power::<_, 4>(a) - R::of(15.0) * power::<_, 4>(b)) / q;
-        (if q < R::of(1.0) { inner } else { outer }) * R::of(9.0 / 66.0)
+        q.choose(R::of(1.0), inner, outer) * R::of(9.0 / 66.0)
     }
 
     #[inline(always)]
@@ -124,7 +124,7 @@ impl Profile for QuinticSpline {
         let fourth = R::of(1.25) * power::<_, 4>(a) - R::of(7.5) * power::<_, 4>(b);
         let third = R::of(5.0) * power::<_, 3>(a) - R::of(30.0) * power::<_, 3>(b);
         let outer = (third + fourth / q) / (q * q);
-        (if q < R::of(1.0) { inner } else { outer }) * R::of(81.0 / 66.0)
+        q.choose(R::of(1.0), inner, outer) * R::of(81.0 / 66.0)
     }
 
     fn peak(self) -> (f64, f64) {

@@ -1,16 +1,14 @@
-//! What profiles are computed in: f32 and f64, by the same formulas.
+//! What profiles are computed in: f32 and f64, or several of them side by side, by the same formulas.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// A floating-point number.
+/// A floating-point number, or numbers side by side of which each is computed alone.
 pub trait Real:
-    Copy
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
+    /// Terms of the series of eʳ, |r| ≤ ½ln 2, after which the rest is below the rounding.
+    const EXPONENTIAL_TERMS: usize;
+
     /// The number nearest to this one.
     fn of(number: f64) -> Self;
 
@@ -18,21 +16,36 @@ pub trait Real:
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// eˣ for x from −80 to 80, to four units in the last place; the same bits on every machine, without
-    /// a branch, so that it can be computed side by side.
+    /// `below` where this is less than the limit, `otherwise` elsewhere.
     #[must_use]
-    fn exp(self) -> Self;
+    fn choose(self, limit: Self, below: Self, otherwise: Self) -> Self;
 
-    /// The greater of two numbers, of which neither is NaN.
+    /// The integer n nearest to a number from −120 to 120, and 2ⁿ.
+    #[must_use]
+    fn nearest_power(self) -> (Self, Self);
+
+    /// The greater one, of this and another.
     #[inline(always)]
     #[must_use]
     fn at_least(self, least: Self) -> Self {
-        if self < least { least } else { self }
+        self.choose(least, least, self)
+    }
+
+    /// eˣ for x from −80 to 80, to four units in the last place: the same bits on every machine.
+    #[inline(always)]
+    #[must_use]
+    fn exp(self) -> Self {
+        // ln 2 in a part whose products with small integers are exact, and the rest of it.
+        const LN_2: (f64, f64) = (0.693_145_751_953_125, 1.428_606_820_309_417_3e-6);
+        let (turns, power) = (self * Self::of(std::f64::consts::LOG2_E)).nearest_power();
+        let rest = (self - turns * Self::of(LN_2.0)) - turns * Self::of(LN_2.1);
+        let mut sum = Self::of(INVERSE_FACTORIALS[Self::EXPONENTIAL_TERMS - 1]);
+        for n in (0..Self::EXPONENTIAL_TERMS - 1).rev() {
+            sum = sum * rest + Self::of(INVERSE_FACTORIALS[n]);
+        }
+        power * sum
     }
 }
-
-/// ln 2, in a part whose products with small integers are exact, and the rest of it.
-const LN_2: (f64, f64) = (0.693_145_751_953_125, 1.428_606_820_309_417_3e-6);
 
 /// 1/n!.
 const INVERSE_FACTORIALS: [f64; 14] = {
@@ -47,17 +60,9 @@ const INVERSE_FACTORIALS: [f64; 14] = {
     inverses
 };
 
-/// eʳ for |r| ≤ ½ln 2 by so many terms of its series.
-#[inline(always)]
-fn series<R: Real, const TERMS: usize>(r: R) -> R {
-    let mut sum = R::of(INVERSE_FACTORIALS[TERMS - 1]);
-    for n in (0..TERMS - 1).rev() {
-        sum = sum * r + R::of(INVERSE_FACTORIALS[n]);
-    }
-    sum
-}
-
 impl Real for f64 {
+    const EXPONENTIAL_TERMS: usize = 14;
+
     #[inline(always)]
     fn of(number: f64) -> Self {
         number
@@ -69,17 +74,22 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn exp(self) -> Self {
+    fn choose(self, limit: Self, below: Self, otherwise: Self) -> Self {
+        if self < limit { below } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn nearest_power(self) -> (Self, Self) {
         // Adding it leaves the nearest integer in the last bits of the mantissa.
         const SHIFT: f64 = (1u64 << 52) as f64 * 1.5;
-        let shifted = self * std::f64::consts::LOG2_E + SHIFT;
-        let turns = shifted - SHIFT;
-        let power = Self::from_bits(shifted.to_bits().wrapping_add(1023) << 52);
-        power * series::<_, 14>((self - turns * LN_2.0) - turns * LN_2.1)
+        let shifted = self + SHIFT;
+        (shifted - SHIFT, Self::from_bits(shifted.to_bits().wrapping_add(1023) << 52))
     }
 }
 
 impl Real for f32 {
+    const EXPONENTIAL_TERMS: usize = 8;
+
     #[inline(always)]
     fn of(number: f64) -> Self {
         number as Self
@@ -91,12 +101,15 @@ impl Real for f32 {
     }
 
     #[inline(always)]
-    fn exp(self) -> Self {
+    fn choose(self, limit: Self, below: Self, otherwise: Self) -> Self {
+        if self < limit { below } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn nearest_power(self) -> (Self, Self) {
         const SHIFT: f32 = (1u32 << 23) as f32 * 1.5;
-        let shifted = self * std::f32::consts::LOG2_E + SHIFT;
-        let turns = shifted - SHIFT;
-        let power = Self::from_bits(shifted.to_bits().wrapping_add(127) << 23);
-        power * series::<_, 8>((self - turns * LN_2.0 as Self) - turns * LN_2.1 as Self)
+        let shifted = self + SHIFT;
+        (shifted - SHIFT, Self::from_bits(shifted.to_bits().wrapping_add(127) << 23))
     }
 }
 
