@@ -16,10 +16,13 @@ use super::ball::Ball;
 /// Sums of n ≤ 2³² non-negative f64 terms of a few products each err by less than this share.
 const ROUNDING: f64 = 1e-6;
 
-/// What a ball of strength 1 adds errs in f32 by less than this. Its depth, at most 1 in size, errs by ten
-/// roundings of 6e-8: two of each offset, three of their squares' sum, the radius's square, the quotient
-/// and the difference. No kernel is steeper than 8, and none takes more than ten roundings of its own.
-const TERM_ROUNDING: f64 = 8.0 * 6e-7 + 6e-7;
+/// The depth of a ball, at most 1 in size, errs in f32 by ten roundings of 6e-8: two of each offset, three
+/// of their squares' sum, the radius's square, the quotient and the difference. And what a kernel's own
+/// roundings are worth in depth.
+const DEPTH_ROUNDING: f64 = 6e-7 + 5e-7;
+
+/// What else a kernel's own roundings are, of values up to 1.
+const VALUE_ROUNDING: f64 = 2e-6;
 
 /// A sum of n terms that are not negative errs in f32 by less than n times this share of it, for n up to
 /// [`MOST_TERMS`]: each addition by a factor of 1 + 2⁻²⁴, and (1 + 2⁻²⁴)ⁿ − 1 ≤ 1.72n·2⁻²⁴.
@@ -93,7 +96,8 @@ impl Builder {
         }
         // Below the least normal number products err by less than that.
         let least = f64::from(f32::MIN_POSITIVE);
-        let term = TERM_ROUNDING * f64::from(self.greatest_strength) + least;
+        let rounding = DEPTH_ROUNDING * self.kernel.steepest() + VALUE_ROUNDING;
+        let term = rounding * f64::from(self.greatest_strength) + least;
         balls as f64 * (term + SUM_ROUNDING * f64::from(sum))
     }
 

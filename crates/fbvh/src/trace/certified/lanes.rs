@@ -3,7 +3,9 @@
 //! fused, so results are the same on every machine.
 
 use std::iter;
-use std::ops::{Add, AddAssign, BitAnd, BitOr, Mul, Not, Sub};
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Not, Sub};
+
+use metaball_core::kernel::Real;
 
 /// How many numbers, and how many rays make a packet.
 pub(in crate::trace) const WIDTH: usize = 8;
@@ -104,6 +106,35 @@ impl Lanes<f32> {
     #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
         self.map(f32::sqrt)
+    }
+}
+
+impl<T: Real + PartialOrd> Real for Lanes<T> {
+    const EXPONENTIAL_TERMS: usize = T::EXPONENTIAL_TERMS;
+
+    #[inline(always)]
+    fn of(number: f64) -> Self {
+        Self::splat(T::of(number))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.map(T::sqrt)
+    }
+
+    #[inline(always)]
+    fn choose(self, limit: Self, below: Self, otherwise: Self) -> Self {
+        let chosen = below.zip(otherwise, |below, otherwise| (below, otherwise));
+        let compared = self.zip(limit, |number, limit| (number, limit));
+        compared.zip(chosen, |(number, limit), (below, otherwise)| {
+            number.choose(limit, below, otherwise)
+        })
+    }
+
+    #[inline(always)]
+    fn nearest_power(self) -> (Self, Self) {
+        let both = self.map(T::nearest_power);
+        (both.map(|(turns, _)| turns), both.map(|(_, power)| power))
     }
 }
 
@@ -224,6 +255,15 @@ impl<T: Copy + Mul<Output = T>> Mul for Lanes<T> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.zip(other, |a, b| a * b)
+    }
+}
+
+impl<T: Copy + Div<Output = T>> Div for Lanes<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
     }
 }
 

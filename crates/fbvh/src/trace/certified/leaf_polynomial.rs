@@ -35,7 +35,7 @@ use pulp::{Arch, Simd, WithSimd};
 use self::cells::Cells;
 use self::monomials::{COUNT, EXPONENTS};
 pub(in crate::trace) use self::store::Polynomials;
-use super::kernel::{ByDegree, by_degree};
+use super::kernel::{ByKernel, LaneKernel, by_kernel};
 use super::lanes::{Lanes, array_of};
 use super::query::Query;
 use crate::Field;
@@ -84,12 +84,12 @@ impl LeafPolynomial {
         bounds: &Aabb,
         cells: Cells,
     ) -> Option<Self> {
-        by_degree(kernel, Making { arch, kernel, threshold, terms, bounds, cells })?
+        by_kernel(kernel, Making { arch, threshold, terms, bounds, cells })?
     }
 
     #[inline(always)]
-    fn of_degree<const N: usize>(making: &Making<'_>) -> Option<Self> {
-        let Making { kernel, threshold, terms, bounds, cells, .. } = *making;
+    fn of_kernel<K: LaneKernel<N>, const N: usize>(kernel: K, making: &Making<'_>) -> Option<Self> {
+        let Making { threshold, terms, bounds, cells, .. } = *making;
         let half = (0.5 * (bounds.max - bounds.min) * (1.0 + ENLARGED)).to_array();
         let middle = bounds.center().abs().to_array();
         // Where the middle is rounded by more than the box is enlarged it is another box.
@@ -100,8 +100,8 @@ impl LeafPolynomial {
         if !(0..3).all(is_legal) {
             return None;
         }
-        let mut coefficients = fit::fit::<N>(kernel, threshold, terms, &half);
-        let residual = cells::bound::<N>(kernel, threshold, terms, &half, &coefficients, cells);
+        let mut coefficients = fit::fit(kernel, threshold, terms, &half);
+        let residual = cells::bound(kernel, threshold, terms, &half, &coefficients, cells);
         coefficients[0] += residual.middle;
         let scale = half.map(f32::recip);
         let sum = |weight: &dyn Fn(usize) -> f32| {
@@ -174,30 +174,32 @@ impl<F: Field> FieldTree<'_, F> {
 
 struct Making<'a> {
     arch: Arch,
-    kernel: Kernel,
     threshold: f32,
     terms: &'a [Term],
     bounds: &'a Aabb,
     cells: Cells,
 }
 
-impl ByDegree for Making<'_> {
+impl ByKernel for Making<'_> {
     type Output = Option<LeafPolynomial>;
 
-    fn run<const N: usize>(self) -> Self::Output {
-        self.arch.dispatch(MakingOfDegree::<N>(self))
+    fn run<K: LaneKernel<N>, const N: usize>(self, kernel: K) -> Self::Output {
+        self.arch.dispatch(MakingOfKernel { kernel, making: self })
     }
 }
 
 /// As `pulp` compiles it for wider vectors.
-struct MakingOfDegree<'a, const N: usize>(Making<'a>);
+struct MakingOfKernel<'a, K, const N: usize> {
+    kernel: K,
+    making: Making<'a>,
+}
 
-impl<const N: usize> WithSimd for MakingOfDegree<'_, N> {
+impl<K: LaneKernel<N>, const N: usize> WithSimd for MakingOfKernel<'_, K, N> {
     type Output = Option<LeafPolynomial>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        LeafPolynomial::of_degree::<N>(&self.0)
+        LeafPolynomial::of_kernel(self.kernel, &self.making)
     }
 }
 

@@ -1,10 +1,8 @@
 //! Balls along rays, and sums over them that enclose the field on an interval, lane by lane: eight
 //! balls on one ray, or one ball on eight rays.
 
-use metaball_core::Kernel;
-
-use super::kernel::{coefficients, slope};
-use super::lanes::{Lanes, Mask, array_of};
+use super::kernel::{LaneKernel, Stretch};
+use super::lanes::{Lanes, Mask};
 
 /// u: half a unit in the last place of 1.
 pub(super) const UNIT: f32 = f32::EPSILON / 2.0;
@@ -28,45 +26,62 @@ pub(super) struct Sums<const N: usize> {
     pub(super) most: [Lanes<f32>; N],
     /// The same nowhere above it.
     pub(super) least: [Lanes<f32>; N],
+    /// At the interval's ends the field is nowhere less, but for rounding.
+    pub(super) ends: [Lanes<f32>; 2],
     /// How far rounding of the parabolas can move the field.
     pub(super) error: Lanes<f32>,
+    /// Of what size the numbers are whose differences the coefficients are; 0 where these are sums.
+    pub(super) magnitude: Lanes<f32>,
     /// Where some ball's part of the field may decrease before the interval's end.
     pub(super) decreases: Mask,
+    /// Values at the interval's ends of a line that the field's slope is nowhere below, and the size of the
+    /// numbers that they are made of; where the kernel bounds slopes.
+    pub(super) rise: [Lanes<f32>; 2],
+    pub(super) steepness: Lanes<f32>,
 }
 
 impl<const N: usize> Sums<N> {
     /// The sums over all parabolas between `start` and `end`.
     #[inline(always)]
-    pub(super) fn new(
-        kernel: Kernel,
+    pub(super) fn new<K: LaneKernel<N>>(
+        kernel: K,
         parabolas: &[Parabolas],
         start: Lanes<f32>,
         end: Lanes<f32>,
     ) -> Self {
         let zero = Lanes::splat(0.0f32);
         let (mut most, mut least) = ([zero; N], [zero; N]);
-        let (mut error, mut decreases) = (zero, Mask::NONE);
+        let (mut error, mut magnitude, mut decreases) = (zero, zero, Mask::NONE);
+        let (mut ends, mut rise, mut steepness) = ([zero; 2], [zero; 2], zero);
         let (start_square, product, end_square) = (start * start, start * end, end * end);
         let middle = (start + end) * 0.5;
         for ball in parabolas {
             let at = |t: Lanes<f32>, square| ball.constant + ball.linear * t - ball.square * square;
-            // The Bernstein coefficients of v: its values at the ends and, between them, its polar form.
-            let v = [at(start, start_square), at(middle, product), at(end, end_square)];
-            let top = v[0].max(v[1]).max(v[2]) + ball.margin;
-            let reaches = !top.is_at_most(zero);
+            let slope_at = |t: Lanes<f32>| ball.linear - ball.square * t * 2.0;
+            let stretch = Stretch {
+                v: [at(start, start_square), at(middle, product), at(end, end_square)],
+                slopes: [slope_at(start), slope_at(end)],
+                margin: ball.margin,
+                slope_margin: ball.slope_margin,
+            };
+            let reaches = !(stretch.top() + ball.margin).is_at_most(zero);
             if !reaches.any() {
                 continue;
             }
-            let covers = ball.margin.is_at_most(v[0].min(v[2]));
-            let terms = coefficients::<N>(kernel, array_of(|k| v[k].max(zero)), ball.strength);
+            let bounds = kernel.bounds(&stretch, ball.strength, reaches);
             for k in 0..N {
-                most[k] += terms[k];
-                least[k] += covers.select(terms[k], zero);
+                most[k] += bounds.most[k];
+                least[k] += bounds.least[k];
             }
-            error += ball.strength * ball.margin * slope::<N>(kernel, top.max(zero));
-            let end_slope = ball.linear - ball.square * end * 2.0;
-            decreases = decreases | reaches & !ball.slope_margin.is_at_most(end_slope);
+            error += bounds.error;
+            magnitude += bounds.magnitude;
+            decreases = decreases | reaches & !bounds.rises;
+            for end in 0..2 {
+                ends[end] += bounds.ends[end];
+                rise[end] += bounds.rise[end];
+            }
+            steepness += bounds.steepness;
         }
-        Self { most, least, error, decreases }
+        Self { most, least, ends, error, magnitude, decreases, rise, steepness }
     }
 }

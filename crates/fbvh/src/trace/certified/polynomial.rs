@@ -1,6 +1,5 @@
 //! The search for a crossing in one leaf on one ray, in f32, eight balls at a time, by Bernstein
-//! coefficients: for kernels that are polynomials of v. What it cannot decide is left to
-//! `trace/certified/ranges.rs`.
+//! coefficients. What it cannot decide is left to `trace/certified/ranges.rs`.
 
 mod blocks;
 mod enclosure;
@@ -14,7 +13,7 @@ pub(super) use self::blocks::Blocks;
 use self::blocks::RelativeRay;
 use self::enclosure::Enclosure;
 use super::bernstein::{negative_until, only_root, value_and_slope};
-use super::kernel::{ByDegree, by_degree};
+use super::kernel::{ByKernel, LaneKernel, by_kernel};
 use super::query::{Answer, Query};
 use crate::trace::counter::Counter;
 
@@ -30,11 +29,11 @@ pub(super) fn search(
     counter: &mut impl Counter,
 ) -> Answer {
     let search = Search { query, arch, blocks, ray, interval, counter };
-    by_degree(query.kernel, search).unwrap_or(Answer::Undecided)
+    by_kernel(query.kernel, search).unwrap_or(Answer::Undecided)
 }
 
 /// The float nearest to a root that is known to be near a guess, and the gradient there, by the balls of
-/// a leaf that has been loaded; `None` for a kernel that is no polynomial of v, or where Newton's steps lead
+/// a leaf that has been loaded; `None` for a kernel that lanes do not have, or where Newton's steps lead
 /// elsewhere.
 pub(super) fn nearest_float(
     query: &Query,
@@ -42,7 +41,7 @@ pub(super) fn nearest_float(
     ray: &Ray,
     guess: f64,
 ) -> Option<(f32, DVec3)> {
-    match by_degree(query.kernel, Nearest { query, blocks, ray, guess })? {
+    match by_kernel(query.kernel, Nearest { query, blocks, ray, guess })? {
         Answer::Root(t, gradient) => Some((t, gradient)),
         _ => None,
     }
@@ -55,14 +54,14 @@ struct Nearest<'a> {
     guess: f64,
 }
 
-impl ByDegree for Nearest<'_> {
+impl ByKernel for Nearest<'_> {
     type Output = Answer;
 
-    fn run<const N: usize>(self) -> Answer {
+    fn run<K: LaneKernel<N>, const N: usize>(self, kernel: K) -> Answer {
         let Self { query, blocks, ray, guess } = self;
         let gap = 2.0 * f64::from(f32::EPSILON) * guess.abs();
         let ends = (guess - gap, guess + gap);
-        root::nearest_float::<N>(query, blocks, ray, guess, ends, &mut ())
+        root::nearest_float(kernel, (query, blocks), ray, guess, ends, &mut ())
     }
 }
 
@@ -75,34 +74,37 @@ struct Search<'a, C> {
     counter: &'a mut C,
 }
 
-impl<C: Counter> ByDegree for Search<'_, C> {
+impl<C: Counter> ByKernel for Search<'_, C> {
     type Output = Answer;
 
-    fn run<const N: usize>(self) -> Answer {
-        self.arch.dispatch(SearchOfDegree::<N, _>(self))
+    fn run<K: LaneKernel<N>, const N: usize>(self, kernel: K) -> Answer {
+        self.arch.dispatch(SearchOfKernel::<K, N, C> { kernel, search: self })
     }
 }
 
 /// The search, as `pulp` compiles it for wider vectors.
-struct SearchOfDegree<'a, const N: usize, C>(Search<'a, C>);
+struct SearchOfKernel<'a, K, const N: usize, C> {
+    kernel: K,
+    search: Search<'a, C>,
+}
 
-impl<const N: usize, C: Counter> WithSimd for SearchOfDegree<'_, N, C> {
+impl<K: LaneKernel<N>, const N: usize, C: Counter> WithSimd for SearchOfKernel<'_, K, N, C> {
     type Output = Answer;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Answer {
-        let Self(Search { query, blocks, ray, interval, counter, .. }) = self;
+        let Self { kernel, search: Search { query, blocks, ray, interval, counter, .. } } = self;
         let relative = blocks.relative(ray, interval);
         blocks.project(ray, &relative);
-        search_of_degree::<N>(query, blocks, (ray, &relative), interval, counter)
+        search_by_bounds(kernel, (query, blocks), (ray, &relative), interval, counter)
     }
 }
 
 /// Front to back: nothing crosses before `start`.
 #[inline(always)]
-fn search_of_degree<const N: usize>(
-    query: &Query,
-    blocks: &Blocks,
+fn search_by_bounds<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
+    (query, blocks): (&Query, &Blocks),
     (ray, relative): (&Ray, &RelativeRay),
     interval: (f64, f64),
     counter: &mut impl Counter,
@@ -111,7 +113,7 @@ fn search_of_degree<const N: usize>(
     let (mut start, mut end) = (-last, last);
     for count in 0..MOST_INTERVALS {
         counter.evaluation();
-        let Some(bounds) = Enclosure::<N>::new(query, &blocks.parabolas, start, end) else {
+        let Some(bounds) = Enclosure::new(kernel, query, &blocks.parabolas, (start, end)) else {
             return Answer::Undecided;
         };
         if count == 0 && relative.starts && bounds.upper[0] >= 0.0 {
@@ -132,14 +134,15 @@ fn search_of_degree<const N: usize>(
             return Answer::Undecided;
         }
         let width = f64::from(end) - f64::from(start);
-        if bounds.is_exact && bounds.changes_sign_once() {
+        if bounds.is_exact && bounds.changes_sign_once() || bounds.increases && bounds.ends[1] > 0.0
+        {
             let x = only_root(&bounds.middle());
             let from_base = |t: f64| relative.base + t;
             let guess = from_base(f64::from(start) + x * width);
             // Past the interval's end by a rounding: too close to decide here.
             let end = from_base(f64::from(end)).min(interval.1);
             let ends = (from_base(f64::from(start)), end);
-            return root::nearest_float::<N>(query, blocks, ray, guess, ends, counter);
+            return root::nearest_float(kernel, (query, blocks), ray, guess, ends, counter);
         }
         // No crossing before `clear`; nor a little short of it, where the field is clear of T.
         let clear = negative_until(bounds.upper).unwrap_or(1.0);

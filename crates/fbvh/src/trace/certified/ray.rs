@@ -10,7 +10,7 @@ use super::ranges::{Chords, Found, RangeSearch, UNIT};
 use crate::Field;
 use crate::trace::counter::Counter;
 use crate::trace::field_tree::FieldTree;
-use crate::trace::slabs::Slabs;
+use crate::trace::slabs::{Slabs, WIDER};
 
 /// What searches of leaves share, for its memory.
 pub(in crate::trace) struct Scratch {
@@ -130,10 +130,11 @@ impl<F: Field> FieldTree<'_, F> {
         if ray.is_empty() {
             return SurfaceHit::MISS;
         }
-        // In a leaf that is searched from the ray's start on.
+        // In a leaf that is searched from the ray's start on, wherever rounding enters it.
         let (slabs, state) = (Slabs::new(ray), RayState::new(ray));
+        let start = ray.t_min * WIDER;
         let holds_start = |bounds: &Aabb| {
-            slabs.crossing(bounds, ray.t_min).is_some()
+            slabs.crossing(bounds, start).is_some()
                 && state.interval(bounds).is_some_and(|(start, _)| state.starts_at(start))
         };
         if self.tree.leaf_around(holds_start, |_| true).is_none() {

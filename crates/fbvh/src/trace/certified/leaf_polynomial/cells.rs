@@ -1,7 +1,6 @@
 //! How far a polynomial may be from the field, cell by cell.
 
-use metaball_core::Kernel;
-
+use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, WIDTH, array_of};
 use super::super::parabolas::UNIT;
 use super::Term;
@@ -74,8 +73,8 @@ struct Sums {
 
 /// Bounds the residual of P in a box about the origin with these half sides.
 #[inline(always)]
-pub(super) fn bound<const N: usize>(
-    kernel: Kernel,
+pub(super) fn bound<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
     threshold: f32,
     terms: &[Term],
     half: &[f32; 3],
@@ -89,8 +88,8 @@ pub(super) fn bound<const N: usize>(
     // Infinite or NaN where anything is.
     let mut total = zero;
     for center in cells.middles() {
-        let sums = sums::<N>(kernel, terms, half, &cell, &center);
-        let unit = (terms.len() + 32) as f32 * UNIT;
+        let sums = sums(kernel, terms, half, &cell, &center);
+        let unit = (terms.len() + 32 + K::ROUNDINGS) as f32 * UNIT;
         let rounding = sums.magnitude.map(|sum| (sum + threshold) * unit) + sums.rounded;
         let error = (sums.error + rounding) * 1.0001;
         let left = sums.less(threshold, &cell, &in_cell(coefficients, &center, cells.half()));
@@ -120,8 +119,8 @@ pub(super) fn bound<const N: usize>(
 /// Sums over the balls that reach cells with these middles, where the box is \[−1, 1\]³; their half sides
 /// are in scene units.
 #[inline(always)]
-fn sums<const N: usize>(
-    kernel: Kernel,
+fn sums<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
     terms: &[Term],
     half: &[f32; 3],
     cell: &[f32; 3],
@@ -157,7 +156,7 @@ fn sums<const N: usize>(
         if !zero.is_less(high).any() {
             continue;
         }
-        sums.add::<N>(kernel, term, cell, &offsets, (farthest, high, margin));
+        sums.add(kernel, term, cell, &offsets, (farthest, high, margin));
     }
     sums
 }
@@ -166,9 +165,9 @@ impl Sums {
     /// Adds a ball that is so far from the cells' middles, in radii; its squared distance is at most
     /// `farthest`, its v at most `high`.
     #[inline(always)]
-    fn add<const N: usize>(
+    fn add<K: LaneKernel<N>, const N: usize>(
         &mut self,
-        kernel: Kernel,
+        kernel: K,
         term: &Term,
         cell: &[f32; 3],
         offsets: &[Lanes<f32>; 3],
@@ -180,7 +179,7 @@ impl Sums {
         // A ball that does not reach a cell adds nothing there.
         let reaches = zero.is_less(high);
         let high = reaches.select(high, zero);
-        let p = Quadratic::new::<N>(kernel, low.min(high), high);
+        let p = Quadratic::new(kernel, low.min(high), high);
         let [x, y, z] = *offsets;
         let v = (zero - (x * x + y * y + z * z)).map(|x| 1.0 + x) - p.middle;
         let curvature = reaches.select(p.curvature * q, zero);

@@ -1,8 +1,6 @@
 //! A polynomial close to the field in a box, by its values at Chebyshev's nodes.
 
-use metaball_core::Kernel;
-
-use super::super::kernel::value;
+use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, WIDTH, array_of};
 use super::Term;
 use super::monomials::{COUNT, DEGREE, EXPONENTS};
@@ -53,13 +51,13 @@ const PLANE: [[f32; BLOCKS * WIDTH]; 2] = {
 /// F − T in a box about the origin with these half sides, in coordinates in which it is \[−1, 1\]³: the
 /// interpolant at the nodes in Chebyshev's polynomials, without the terms of a higher total degree.
 #[inline(always)]
-pub(super) fn fit<const N: usize>(
-    kernel: Kernel,
+pub(super) fn fit<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
     threshold: f32,
     terms: &[Term],
     half: &[f32; 3],
 ) -> [f32; COUNT] {
-    let values = values::<N>(kernel, terms, half);
+    let values = values(kernel, terms, half);
     let mut cube = [[[0.0; NODES]; NODES]; NODES];
     for (i, plane) in cube.iter_mut().enumerate() {
         for (j, line) in plane.iter_mut().enumerate() {
@@ -87,8 +85,8 @@ pub(super) fn fit<const N: usize>(
 
 /// The field at the nodes: for each along z, those of the plane.
 #[inline(always)]
-fn values<const N: usize>(
-    kernel: Kernel,
+fn values<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
     terms: &[Term],
     half: &[f32; 3],
 ) -> [[Lanes<f32>; BLOCKS]; NODES] {
@@ -108,7 +106,7 @@ fn values<const N: usize>(
             for (sums, node) in sums.iter_mut().zip(AT) {
                 let z = node * scale[2] - origin[2];
                 let v = (base - Lanes::splat(z * z)).max(zero);
-                sums[block] += value::<N>(kernel, v) * strength;
+                sums[block] += kernel.value(v) * strength;
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Polynomials above and below the field on an interval, lane by lane, with all rounding.
 
 use super::super::bernstein::{inverse_binomials, right_of};
+use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, Mask, array_of};
 use super::super::parabolas::{Parabolas, Sums, UNIT};
 use super::super::query::Query;
@@ -9,9 +10,9 @@ use super::super::query::Query;
 pub(super) struct Enclosure<const N: usize> {
     pub(super) upper: [Lanes<f32>; N],
     pub(super) lower: [Lanes<f32>; N],
-    /// At the interval's ends at least this: there the raised parabolas are the true ones.
+    /// At the interval's ends at least this.
     pub(super) ends: [Lanes<f32>; 2],
-    /// Where no ball that reaches the interval decreases on it.
+    /// Where the field rises on the interval.
     pub(super) increases: Mask,
     /// Where the field is a polynomial on the interval.
     pub(super) is_exact: Mask,
@@ -26,15 +27,16 @@ pub(super) trait Encloses<const N: usize> {
 }
 
 /// The balls of a list, along the rays.
-pub(super) struct OfBalls<'a> {
+pub(super) struct OfBalls<'a, K> {
+    pub(super) kernel: K,
     pub(super) query: &'a Query,
     pub(super) parabolas: &'a [Parabolas],
 }
 
-impl<const N: usize> Encloses<N> for OfBalls<'_> {
+impl<K: LaneKernel<N>, const N: usize> Encloses<N> for OfBalls<'_, K> {
     #[inline(always)]
     fn enclosure(&self, start: Lanes<f32>, end: Lanes<f32>) -> Enclosure<N> {
-        Enclosure::new(self.query, self.parabolas, start, end)
+        Enclosure::new(self, start, end)
     }
 }
 
@@ -42,12 +44,15 @@ impl<const N: usize> Enclosure<N> {
     /// Encloses the field between `start` and `end`. Rounding as for a single ray, and 32u more for sums
     /// and products here, which are f32.
     #[inline(always)]
-    fn new(query: &Query, parabolas: &[Parabolas], start: Lanes<f32>, end: Lanes<f32>) -> Self {
-        let sums = Sums::<N>::new(query.kernel, parabolas, start, end);
+    fn new<K: LaneKernel<N>>(balls: &OfBalls<'_, K>, start: Lanes<f32>, end: Lanes<f32>) -> Self {
+        let OfBalls { kernel, query, parabolas } = *balls;
+        let sums = Sums::<N>::new(kernel, parabolas, start, end);
         let inverses = const { inverse_binomials::<N>() };
         let threshold = query.threshold as f32;
-        let rounding = (parabolas.len() + 4 * N + 48) as f32 * UNIT;
+        let rounding = (parabolas.len() + 4 * N + 48 + K::ROUNDINGS) as f32 * UNIT;
         let error = sums.error.map(|error| error * 1.0001 + 8.0 * UNIT * threshold);
+        // Differences err by as much of what they are of, and so does what they are rounded by.
+        let error = error + sums.magnitude * (2.0 * rounding);
         let most: [_; N] = array_of(|k| sums.most[k] * inverses[k] as f32);
         let least: [_; N] = array_of(|k| sums.least[k] * inverses[k] as f32);
         let up = |c: Lanes<f32>| (c * (1.0 + rounding) + error).map(|c| c - threshold);
@@ -56,8 +61,13 @@ impl<const N: usize> Enclosure<N> {
         Self {
             upper: array_of(|k| up(most[k])),
             lower: array_of(|k| down(least[k])),
-            ends: [down(most[0]), down(most[N - 1])],
-            increases: !sums.decreases,
+            ends: [down(sums.ends[0]), down(sums.ends[1])],
+            increases: if K::BOUNDS_SLOPES {
+                let least = sums.steepness * (4.0 * rounding);
+                least.is_less(sums.rise[0]) & least.is_less(sums.rise[1])
+            } else {
+                !sums.decreases
+            },
             is_exact: !differs,
             is_known: error.is_less(Lanes::splat(threshold)),
         }

@@ -15,7 +15,7 @@ use std::mem;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::super::bernstein::value_and_rise;
-use super::super::kernel::{ByDegree, by_degree, is_polynomial, value};
+use super::super::kernel::{ByKernel, LaneKernel, by_kernel, has_bounds};
 use super::super::lanes::{Lanes, Mask, WIDTH, lanes_of};
 use super::super::leaf_polynomial::LeafPolynomial;
 use super::super::parabolas::UNIT;
@@ -27,9 +27,9 @@ use super::polynomial::AlongRays;
 use super::rays::{ExactPacket, Packet};
 use super::root::{Isolated, Roots, approach, approach_from_nearby, refine};
 
-/// Whether packets can be searched for it: for an entry, by polynomials.
+/// Whether packets can be searched for it: for an entry, by bounds of the kernel.
 pub(super) fn is_searched_in_packets(query: &Query) -> bool {
-    query.crossing == Crossing::Entry && is_polynomial(query.kernel)
+    query.crossing == Crossing::Entry && has_bounds(query.kernel)
 }
 
 /// What is found, lane by lane; lanes in none of the three f32 cannot decide.
@@ -60,7 +60,7 @@ pub(super) fn search(
     let (nothing, somewhere, roots) = (Mask::NONE, Mask::NONE, Roots::NONE);
     let mut found = Found { nothing, somewhere, roots };
     let (lanes, results) = (Mask::from_bits(lanes), &mut found);
-    by_degree(query.kernel, Search { query, arch, leaf, packet, exact, interval, lanes, results });
+    by_kernel(query.kernel, Search { query, arch, leaf, packet, exact, interval, lanes, results });
     found
 }
 
@@ -75,51 +75,55 @@ struct Search<'a> {
     results: &'a mut Found,
 }
 
-impl ByDegree for Search<'_> {
+impl ByKernel for Search<'_> {
     type Output = ();
 
-    fn run<const N: usize>(mut self) {
+    fn run<K: LaneKernel<N>, const N: usize>(mut self, kernel: K) {
         let arch = self.arch;
         if let Some(polynomial) = self.leaf.polynomial {
-            self.lanes = arch.dispatch(ByPolynomial::<N> { search: &mut self, polynomial });
+            self.lanes = arch.dispatch(ByPolynomial { kernel, search: &mut self, polynomial });
         }
         if self.lanes.any() {
-            arch.dispatch(ByBalls::<N>(self));
+            arch.dispatch(ByBalls { kernel, search: self });
         }
     }
 }
 
 /// The search by the leaf's polynomial, as `pulp` compiles it for wider vectors. Its output are the lanes
 /// that it leaves open.
-struct ByPolynomial<'a, 'b, const N: usize> {
+struct ByPolynomial<'a, 'b, K, const N: usize> {
+    kernel: K,
     search: &'a mut Search<'b>,
     polynomial: &'b LeafPolynomial,
 }
 
-impl<const N: usize> WithSimd for ByPolynomial<'_, '_, N> {
+impl<K: LaneKernel<N>, const N: usize> WithSimd for ByPolynomial<'_, '_, K, N> {
     type Output = Mask;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Mask {
-        let Self { search, polynomial } = self;
+        let Self { kernel, search, polynomial } = self;
         let Search { packet, exact, interval, .. } = *search;
         let relative = search.leaf.balls.relative(packet, exact, *interval);
-        search.by_polynomial::<N>(polynomial, &relative)
+        search.by_polynomial(kernel, polynomial, &relative)
     }
 }
 
 /// The search by the leaf's balls.
-struct ByBalls<'a, const N: usize>(Search<'a>);
+struct ByBalls<'a, K, const N: usize> {
+    kernel: K,
+    search: Search<'a>,
+}
 
-impl<const N: usize> WithSimd for ByBalls<'_, N> {
+impl<K: LaneKernel<N>, const N: usize> WithSimd for ByBalls<'_, K, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self(mut search) = self;
+        let Self { kernel, mut search } = self;
         let Search { packet, exact, interval, lanes, .. } = search;
         let relative = search.leaf.balls.relative(packet, exact, *interval);
-        search.by_balls::<N>(&relative, lanes);
+        search.by_balls(kernel, &relative, lanes);
     }
 }
 
@@ -129,8 +133,9 @@ const MOST_BY_POLYNOMIAL: usize = 6;
 impl Search<'_> {
     /// Searches by the polynomial; the lanes that it leaves open.
     #[inline(always)]
-    fn by_polynomial<const N: usize>(
+    fn by_polynomial<K: LaneKernel<N>, const N: usize>(
         &mut self,
+        kernel: K,
         polynomial: &LeafPolynomial,
         relative: &RelativePacket,
     ) -> Mask {
@@ -146,8 +151,8 @@ impl Search<'_> {
             self.leaf.balls.keep(&near);
             let balls = &*self.leaf.balls;
             let rays = (packet, relative);
-            let guess = approach_from_nearby::<N>(self.query, balls, rays, &isolated, guess);
-            self.finish::<N>(relative, &isolated, guess);
+            let guess = approach_from_nearby(kernel, (self.query, balls), rays, &isolated, guess);
+            self.finish(kernel, relative, &isolated, guess);
         }
         let Found { nothing, somewhere, roots } = &*self.results;
         lanes & !(*nothing | *somewhere | Mask::from_bits(roots.lanes))
@@ -155,9 +160,15 @@ impl Search<'_> {
 
     /// Searches by the balls of the list.
     #[inline(always)]
-    fn by_balls<const N: usize>(&mut self, relative: &RelativePacket, lanes: Mask) {
+    fn by_balls<K: LaneKernel<N>, const N: usize>(
+        &mut self,
+        kernel: K,
+        relative: &RelativePacket,
+        lanes: Mask,
+    ) {
         let back = Lanes::splat(0.0f32) - relative.half;
-        let Projected { is_below, end } = self.project::<N>(relative, (back, relative.half), lanes);
+        let Projected { is_below, end } =
+            self.project(kernel, relative, (back, relative.half), lanes);
         self.results.nothing = self.results.nothing | lanes & is_below;
         let open = lanes & !is_below;
         if !open.any() {
@@ -165,26 +176,28 @@ impl Search<'_> {
         }
         let end = back.is_less(end).select(end, relative.half);
         let parabolas = mem::take(&mut self.leaf.balls.parabolas);
-        let along = OfBalls { query: self.query, parabolas: &parabolas };
+        let along = OfBalls { kernel, query: self.query, parabolas: &parabolas };
         let isolated = self.isolate::<N>(&along, relative.half, (open, end), MOST_INTERVALS);
         self.leaf.balls.parabolas = parabolas;
         if isolated.found.any() {
-            let guess = approach::<N>(self.query, self.leaf.balls, &isolated);
-            self.finish::<N>(relative, &isolated, guess);
+            let guess = approach(kernel, (self.query, &*self.leaf.balls), &isolated);
+            self.finish(kernel, relative, &isolated, guess);
         }
     }
 
     /// Finds the roots that are isolated near a guess, by the balls that are kept.
     #[inline(always)]
-    fn finish<const N: usize>(
+    fn finish<K: LaneKernel<N>, const N: usize>(
         &mut self,
+        kernel: K,
         relative: &RelativePacket,
         isolated: &Isolated,
         guess: Lanes<f32>,
     ) {
         let Self { query, packet, exact, interval, .. } = *self;
         let (rays, roots) = ((packet, exact, relative), &mut self.results.roots);
-        refine::<N>(query, self.leaf.balls, rays, isolated, guess, interval.1, roots);
+        let leaf = (query, &*self.leaf.balls);
+        refine(kernel, leaf, rays, isolated, guess, interval.1, roots);
     }
 }
 
@@ -199,8 +212,9 @@ struct Projected {
 impl Search<'_> {
     /// Projects the balls on the rays of some lanes and keeps those that reach an interval.
     #[inline(always)]
-    fn project<const N: usize>(
+    fn project<K: LaneKernel<N>, const N: usize>(
         &mut self,
+        kernel: K,
         relative: &RelativePacket,
         (first, last): (Lanes<f32>, Lanes<f32>),
         lanes: Mask,
@@ -225,7 +239,7 @@ impl Search<'_> {
                     continue;
                 }
                 // NaN stays NaN.
-                let most = value::<N>(self.query.kernel, zero.max(top)) * ball.strength;
+                let most = kernel.value(zero.max(top)) * ball.strength;
                 upper_bound += most;
                 // Slope margins before the projection it certainly rises still.
                 let before = t - parabola.margin * ball.radius;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::kernel::{slope, value, value_and_slope};
+use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
 use super::super::nearest_float::{Excess, MOST_LOOKS, NearestFloat, Next};
 use super::super::query::Query;
@@ -34,9 +34,9 @@ const NEAR: f32 = 3e-3;
 
 /// The roots, roughly: Newton's steps, kept between the ends.
 #[inline(always)]
-pub(super) fn approach<const N: usize>(
-    query: &Query,
-    balls: &Balls,
+pub(super) fn approach<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
+    (query, balls): (&Query, &Balls),
     isolated: &Isolated,
 ) -> Lanes<f32> {
     const MOST_STEPS: usize = 12;
@@ -49,9 +49,9 @@ pub(super) fn approach<const N: usize>(
         for ball in &balls.parabolas {
             let v = ball.constant + (ball.linear - ball.square * t) * t;
             let v = v.max(zero);
-            excess += ball.strength * value::<N>(query.kernel, v);
+            excess += ball.strength * kernel.value(v);
             let along = ball.linear - ball.square * t * 2.0;
-            rise += ball.strength * slope::<N>(query.kernel, v) * along;
+            rise += ball.strength * kernel.slope(v) * along;
         }
         let is_above = zero.is_at_most(excess);
         high = is_above.select(t, high);
@@ -70,9 +70,9 @@ pub(super) fn approach<const N: usize>(
 
 /// The roots, roughly, from guesses near them: Newton's steps on the balls themselves.
 #[inline(always)]
-pub(super) fn approach_from_nearby<const N: usize>(
-    query: &Query,
-    balls: &Balls,
+pub(super) fn approach_from_nearby<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
+    (query, balls): (&Query, &Balls),
     (packet, relative): (&Packet, &RelativePacket),
     isolated: &Isolated,
     guess: Lanes<f32>,
@@ -98,9 +98,9 @@ pub(super) fn approach_from_nearby<const N: usize>(
                 along += offset * *direction;
             }
             let v = (square * ball.inverse_square_f32).map(|square| 1.0 - square).max(zero);
-            excess += value::<N>(query.kernel, v) * ball.strength;
+            excess += kernel.value(v) * ball.strength;
             let weight = 2.0 * ball.strength * ball.inverse_square_f32;
-            rise += slope::<N>(query.kernel, v) * along * weight;
+            rise += kernel.slope(v) * along * weight;
         }
         let next = (t - excess.zip(rise, |excess, rise| excess / rise)).min(end).max(start);
         let moves = near.is_less((next - t).map(f32::abs));
@@ -115,9 +115,9 @@ pub(super) fn approach_from_nearby<const N: usize>(
 /// The floats nearest to the roots near the guesses, and the field's gradients there. The rays leave the
 /// leaf at `end`. They are added to `roots`.
 #[inline(always)]
-pub(super) fn refine<const N: usize>(
-    query: &Query,
-    balls: &Balls,
+pub(super) fn refine<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
+    (query, balls): (&Query, &Balls),
     (packet, exact, relative): (&Packet, &ExactPacket, &RelativePacket),
     isolated: &Isolated,
     guess: Lanes<f32>,
@@ -133,12 +133,12 @@ pub(super) fn refine<const N: usize>(
         let last = from_base(&isolated.end).min(end.0[lane]);
         let ends = (from_base(&isolated.start), last);
         let limits = (packet.t_min.0[lane], packet.t_max.0[lane]);
-        NearestFloat::new(guess.0[lane], ends, limits, balls.least_radius, N == 3)
+        NearestFloat::new(guess.0[lane], ends, limits, balls.least_radius, kernel.has_kink())
     });
     let mut open = isolated.found.bits();
     for _ in 0..MOST_LOOKS {
         let t = Lanes(array_of(|lane| searches[lane].at));
-        let field = excess::<N>(query, balls, &origin, &direction, t);
+        let field = excess(kernel, (query, balls), &origin, &direction, t);
         for lane in lanes_of(open) {
             match searches[lane].look(field.lane(lane)) {
                 Next::Another => continue,
@@ -174,9 +174,9 @@ impl Excesses {
 /// The field at points of the rays, by the balls that are kept: the others add nothing, not even a
 /// rounding.
 #[inline(always)]
-fn excess<const N: usize>(
-    query: &Query,
-    balls: &Balls,
+fn excess<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
+    (query, balls): (&Query, &Balls),
     origin: &[Lanes<f64>; 3],
     direction: &[Lanes<f64>; 3],
     t: Lanes<f64>,
@@ -190,7 +190,7 @@ fn excess<const N: usize>(
         let v =
             (x * x + y * y + z * z).map(|distance| (1.0 - distance * ball.inverse_square).max(0.0));
         let strength = f64::from(ball.strength);
-        let (part, slope) = value_and_slope::<N>(query.kernel, v);
+        let (part, slope) = kernel.value_and_slope(v);
         value += part * strength;
         let pull = slope * (strength * ball.inverse_square * 2.0);
         for (sum, offset) in gradient.iter_mut().zip([x, y, z]) {

@@ -1,6 +1,7 @@
 //! Polynomials above and below the field on an interval, with all rounding.
 
 use super::super::bernstein::inverse_binomials;
+use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, array_of};
 use super::super::parabolas::{Parabolas, Sums, UNIT};
 use super::super::query::{Crossing, Query};
@@ -10,27 +11,31 @@ use super::super::query::{Crossing, Query};
 pub(super) struct Enclosure<const N: usize> {
     pub(super) upper: [f64; N],
     pub(super) lower: [f64; N],
-    /// At the interval's ends at least this: there the raised parabolas are the true ones.
+    /// At the interval's ends at least this.
     pub(super) ends: [f64; 2],
     /// Whether the field is a polynomial on the interval: no support's rim is in it.
     pub(super) is_exact: bool,
+    /// Whether it rises on the interval; where the kernel bounds slopes, and for an entry.
+    pub(super) increases: bool,
 }
 
 impl<const N: usize> Enclosure<N> {
     /// Encloses the field between `start` and `end`; `None` where rounding is as large as T.
     #[inline(always)]
-    pub(super) fn new(
+    pub(super) fn new<K: LaneKernel<N>>(
+        kernel: K,
         query: &Query,
         parabolas: &[Parabolas],
-        start: f32,
-        end: f32,
+        (start, end): (f32, f32),
     ) -> Option<Self> {
         let (start, end) = (Lanes::splat(start), Lanes::splat(end));
-        let Sums { most, least, error, .. } = Sums::<N>::new(query.kernel, parabolas, start, end);
+        let Sums { most, least, ends, error, magnitude, rise, steepness, .. } =
+            Sums::<N>::new(kernel, parabolas, start, end);
         let inverses = const { inverse_binomials::<N>() };
-        // Products and sums of non-negative terms: one rounding each.
-        let rounding = (parabolas.len() + 4 * N + 16) as f64 * f64::from(UNIT);
-        let error = f64::from(error.sum()) * 1.0001;
+        // Products and sums of non-negative terms: one rounding each. Differences err by as much of what they
+        // are of, and so does what they are rounded by.
+        let rounding = (parabolas.len() + 4 * N + 16 + K::ROUNDINGS) as f64 * f64::from(UNIT);
+        let error = f64::from(error.sum()) * 1.0001 + f64::from(magnitude.sum()) * (2.0 * rounding);
         // NaN where margins overflow, of balls that are tiny compared with the leaf.
         if error.is_nan() || error >= query.threshold {
             return None;
@@ -40,19 +45,22 @@ impl<const N: usize> Enclosure<N> {
         let is_exact = most == least;
         let up = |c: f64| c * (1.0 + rounding) + error - query.threshold;
         let down = |c: f64| c * (1.0 - rounding) - error - query.threshold;
-        let ends = [most[0], most[N - 1]];
+        let least_slope = f64::from(steepness.sum()) * 4.0 * rounding;
+        let rise = rise.map(|rise| f64::from(rise.sum()));
         Some(match query.crossing {
             Crossing::Entry => Self {
                 upper: array_of(|k| up(most[k])),
                 lower: array_of(|k| down(least[k])),
-                ends: array_of(|k| down(ends[k])),
+                ends: array_of(|k| down(ends[k].sum().into())),
                 is_exact,
+                increases: K::BOUNDS_SLOPES && rise.iter().all(|&rise| rise > least_slope),
             },
             Crossing::Exit => Self {
                 upper: array_of(|k| -down(least[k])),
                 lower: array_of(|k| -up(most[k])),
-                ends: array_of(|k| -up(ends[k])),
+                ends: [-up(most[0]), -up(most[N - 1])],
                 is_exact,
+                increases: false,
             },
         })
     }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use metaball_core::Ray;
 
-use super::super::kernel::value_and_slope;
+use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, array_of};
 use super::super::nearest_float::{Excess, MOST_LOOKS, NearestFloat, Next};
 use super::super::query::{Answer, Query};
@@ -12,9 +12,9 @@ use crate::trace::counter::Counter;
 
 /// The float nearest to the root near a guess, which has to lie between the ends, all in the ray's t.
 #[inline(always)]
-pub(super) fn nearest_float<const N: usize>(
-    query: &Query,
-    blocks: &Blocks,
+pub(super) fn nearest_float<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
+    (query, blocks): (&Query, &Blocks),
     ray: &Ray,
     guess: f64,
     ends: (f64, f64),
@@ -23,11 +23,12 @@ pub(super) fn nearest_float<const N: usize>(
     let origin = ray.origin.as_dvec3() - blocks.middle;
     let direction = ray.direction.as_dvec3();
     let limits = (ray.t_min, ray.t_max);
-    let mut search = NearestFloat::new(guess, ends, limits, blocks.least_radius, N == 3);
+    let (radius, kink) = (blocks.least_radius, kernel.has_kink());
+    let mut search = NearestFloat::new(guess, ends, limits, radius, kink);
     for _ in 0..MOST_LOOKS {
         counter.iteration();
         let point = origin + search.at * direction;
-        match search.look(excess::<N>(query, blocks, point, direction)) {
+        match search.look(excess(kernel, (query, blocks), point, direction)) {
             Next::Another => {}
             Next::Found(t, gradient) => return Answer::Root(t, gradient),
             Next::Lost => break,
@@ -39,9 +40,9 @@ pub(super) fn nearest_float<const N: usize>(
 /// The field at a point, relative to the middle of the leaf's box. Each ball's part is what
 /// `trace/certified/packet/root.rs` makes of it, and they are added up in the same order.
 #[inline(always)]
-fn excess<const N: usize>(
-    query: &Query,
-    blocks: &Blocks,
+fn excess<K: LaneKernel<N>, const N: usize>(
+    kernel: K,
+    (query, blocks): (&Query, &Blocks),
     point: DVec3,
     direction: DVec3,
 ) -> Excess {
@@ -53,7 +54,7 @@ fn excess<const N: usize>(
         let v = (x * x + y * y + z * z)
             .zip(block.inverse_square, |distance, inverse| (1.0 - distance * inverse).max(0.0));
         let strength = block.strength.map(f64::from);
-        let (values, slopes) = value_and_slope::<N>(query.kernel, v);
+        let (values, slopes) = kernel.value_and_slope(v);
         let values = values * strength;
         let pull = slopes * (strength * block.inverse_square * 2.0);
         let pulls: [_; 3] = array_of(|axis| offset[axis] * pull);
