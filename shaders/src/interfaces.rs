@@ -35,6 +35,9 @@ pub const INTERFACES: &[Interface] = &[
             fn greatest_bend() -> f32
             // The greatest slope between two values of v.
             fn steepest_slope(least: f32, most: f32) -> f32
+            // For an exact v, `kernel` and `kernel_slope` err by so many units in the last place of themselves
+            // more than eight products do.
+            fn kernel_roundings() -> u32
         ",
     },
     Interface {

@@ -11,12 +11,36 @@ pub enum KernelModule {
     Wyvill,
     /// Perlin's polynomial.
     Perlin,
+    /// The cubic spline of SPH.
+    CubicSpline,
+    /// The quintic spline of SPH.
+    QuinticSpline,
+    /// Wendland's function of smoothness C².
+    WendlandC2,
+    /// Wendland's function of smoothness C⁴.
+    WendlandC4,
+    /// Wendland's function of smoothness C⁶.
+    WendlandC6,
+    /// A cut Gaussian; how far out is an override constant.
+    Gaussian,
     /// Nothing: the kernel and its exponent are read.
     Any,
 }
 
 impl KernelModule {
-    const ALL: [Self; 5] = [Self::Power, Self::AnyPower, Self::Wyvill, Self::Perlin, Self::Any];
+    const ALL: [Self; 11] = [
+        Self::Power,
+        Self::AnyPower,
+        Self::Wyvill,
+        Self::Perlin,
+        Self::CubicSpline,
+        Self::QuinticSpline,
+        Self::WendlandC2,
+        Self::WendlandC4,
+        Self::WendlandC6,
+        Self::Gaussian,
+        Self::Any,
+    ];
 
     /// The modules with the kernel and with its exponent.
     fn modules(self) -> [&'static str; 2] {
@@ -25,6 +49,12 @@ impl KernelModule {
             Self::AnyPower => ["kernel/power", "exponent/read"],
             Self::Wyvill => ["kernel/wyvill", "exponent/compiled"],
             Self::Perlin => ["kernel/perlin", "exponent/compiled"],
+            Self::CubicSpline => ["kernel/cubic_spline", "exponent/compiled"],
+            Self::QuinticSpline => ["kernel/quintic_spline", "exponent/compiled"],
+            Self::WendlandC2 => ["kernel/wendland_c2", "exponent/compiled"],
+            Self::WendlandC4 => ["kernel/wendland_c4", "exponent/compiled"],
+            Self::WendlandC6 => ["kernel/wendland_c6", "exponent/compiled"],
+            Self::Gaussian => ["kernel/gaussian", "exponent/compiled"],
             Self::Any => ["kernel/any", "exponent/read"],
         }
     }

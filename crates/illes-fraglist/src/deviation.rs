@@ -15,7 +15,7 @@ pub struct Deviation {
 ///
 /// On half a chord let x go from 0 at the end to 1 at the midpoint. The cubic is γx²(3 − 2x) (figure
 /// 5), and v = a·x(2 − x) with a = Q²/R². A power kernel is then γ(x(2 − x))^α whatever the chord.
-/// Wyvill's and Perlin's depend on a; the bounds are those over a in (0, 1].
+/// The others depend on a; the bounds are those over a in (0, 1].
 pub fn cubic_deviation(kernel: Kernel) -> Deviation {
     const STEPS: u32 = 256;
     // Between two samples the difference moves by less than its slope, at most 2α + 1.5 in x, allows:
@@ -25,7 +25,7 @@ pub fn cubic_deviation(kernel: Kernel) -> Deviation {
     // Along power kernels all chords are alike.
     let depths: Vec<f64> = match kernel {
         Kernel::Power(_) => vec![1.0],
-        Kernel::Wyvill | Kernel::Perlin => fractions().collect(),
+        _ => fractions().collect(),
     };
     let bounds = Deviation { least: 0.0, greatest: 0.0 };
     let found = depths.iter().flat_map(|&a| fractions().map(move |x| (a, x))).fold(

@@ -58,7 +58,7 @@ pub(crate) fn search_modules(
         }
         Kernel::Power(_) => Some(with!("kanamori_peel/bernstein/power")),
         Kernel::Wyvill => Some(with!("kanamori_peel/bernstein/wyvill")),
-        Kernel::Perlin => None,
+        _ => None,
     }
 }
 

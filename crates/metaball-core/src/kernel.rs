@@ -34,6 +34,11 @@ impl Cut {
     pub fn get(self) -> f64 {
         f64::from(self.0) / 100.0
     }
+
+    /// The Gaussian that is cut there.
+    pub fn profile(self) -> Gaussian {
+        Gaussian::cut_at(self.get())
+    }
 }
 
 /// The falloff k(s), s = r²/R², shared by all balls of a scene: 1 at the centre, falling, 0 from the
@@ -121,7 +126,7 @@ macro_rules! by_profile {
                 $result
             }
             Kernel::Gaussian(cut) => {
-                let $profile = Gaussian::cut_at(cut.get());
+                let $profile = cut.profile();
                 $result
             }
         }
@@ -287,7 +292,7 @@ impl Kernel {
             Self::Wyvill => v * v * (5.0 + 4.0 * v) * (1.0 / 9.0),
             Self::Perlin => {
                 let rho = (1.0 - v).max(0.0).sqrt();
-                let rest = 1.0 - rho;
+                let rest = v / (1.0 + rho);
                 rest * rest * rest * (1.0 + 3.0 * rho + 6.0 * rho * rho)
             }
             _ => by_profile!(self, profile => profile.value(v), else 0.0),
@@ -305,7 +310,8 @@ impl Kernel {
             Self::Wyvill => v * (10.0 + 12.0 * v) * (1.0 / 9.0),
             Self::Perlin => {
                 let rho = (1.0 - v).max(0.0).sqrt();
-                15.0 * rho * (1.0 - rho) * (1.0 - rho)
+                let rest = v / (1.0 + rho);
+                15.0 * rho * rest * rest
             }
             _ => by_profile!(self, profile => profile.slope(v), else 0.0),
         }

@@ -8,7 +8,7 @@
 #import fbvh::projection::{greatest_depth, project}
 #import fbvh::relative_ray::RelativeRay
 #import fbvh::structure::lists
-#import kernel::kernel
+#import kernel::{kernel, kernel_roundings}
 #import work::count_evaluations
 
 const WORDS: u32 = 8u;
@@ -61,10 +61,10 @@ fn gather(ray: RelativeRay, direction: vec3<f32>, list_first: u32, list_end: u32
     return most * (1.0 + sum_error());
 }
 
-// A sum over the balls near, each term of a few products, errs by less than this part of the terms' sum
-// without their signs.
+// A sum over the balls near, each term a kernel or its slope in a few products, errs by less than this part
+// of the terms' sum without their signs.
 fn sum_error() -> f32 {
-    return f32(count + 16u) * UNIT;
+    return f32(count + 16u + kernel_roundings()) * UNIT;
 }
 
 // Iterations of a walk along the balls near.

@@ -16,7 +16,7 @@
 #import core::view::{in_picture, pixel_at, rays, view, PrimaryRay}
 #import kanamori_robust::lists
 #import kanamori_robust::lists::entries
-#import kernel::{kernel, kernel_slope, steepest_slope}
+#import kernel::{kernel, kernel_roundings, kernel_slope, steepest_slope}
 #import strength::strength
 #import support::support_of
 #import work::{count_balls, count_evaluations, count_iterations, count_leaf_test, write_work}
@@ -290,8 +290,9 @@ fn bounds_on(direction: vec3<f32>, low: f32, high: f32) -> Bounds {
     count_balls(balls);
     count_evaluations(balls);
     spent += balls / 4u + 1u;
-    // The sum of n terms of one sign, each of a few products, errs by less than this part of it.
-    let summing = f32(balls + 24u) * UNIT;
+    // The sum of n terms of one sign, each a kernel or its slope in a few products, errs by less than this
+    // part of it.
+    let summing = f32(balls + 24u + kernel_roundings()) * UNIT;
     bounds.most *= 1.0 + summing;
     bounds.least_slope = bounds.gains * (1.0 - summing) - bounds.losses * (1.0 + summing);
     bounds.end_least *= 1.0 - summing;

@@ -1,28 +1,27 @@
-// Perlin's polynomial of degree five in rho = r/R, 1 - 10 rho^3 + 15 rho^4 - 6 rho^5 (Illés and
-// Szécsi), as the product (1 - rho)^3 (1 + 3 rho + 6 rho^2), which does not cancel at the rim.
+// Perlin's polynomial of degree five in r (Illés and Szécsi).
+
+#import profile::perlin::{perlin, perlin_slope, PERLIN_BEND, PERLIN_PEAK, PERLIN_STEEPEST}
+#import profile::rim::ROUNDINGS
 
 fn kernel(v: f32) -> f32 {
-    let rho = sqrt(clamp(1.0 - v, 0.0, 1.0));
-    let rest = 1.0 - rho;
-    return rest * rest * rest * (1.0 + 3.0 * rho + 6.0 * rho * rho);
+    return perlin(v);
 }
 
 fn kernel_slope(v: f32) -> f32 {
-    let rho = sqrt(clamp(1.0 - v, 0.0, 1.0));
-    let rest = 1.0 - rho;
-    return 15.0 * rho * rest * rest;
+    return perlin_slope(v);
 }
 
-// Across a radius 30 rho (1 - rho)^2 <= 4.45, along it 60 rho (1 - rho) |1 - 2 rho| <= 5.78.
 fn greatest_bend() -> f32 {
-    return 6.0;
+    return PERLIN_BEND;
 }
 
-// The slope peaks at rho = 1/3.
 fn steepest_slope(least: f32, most: f32) -> f32 {
-    const PEAK: f32 = 8.0 / 9.0;
-    if least > PEAK {
+    if least > PERLIN_PEAK {
         return kernel_slope(least);
     }
-    return select(kernel_slope(most), 20.0 / 9.0, most > PEAK);
+    return select(kernel_slope(most), PERLIN_STEEPEST, most > PERLIN_PEAK);
+}
+
+fn kernel_roundings() -> u32 {
+    return ROUNDINGS;
 }

@@ -13,6 +13,9 @@ use crate::{Kernel, KernelForm, Scene};
 /// shared modules; methods number theirs from 16.
 const EXPONENT: &str = "0";
 
+/// The same in `shaders/wgsl/kernel/gaussian.wgsl`: how far down the cut is, and the factor of the rest.
+const GAUSSIAN: [&str; 2] = ["4", "5"];
+
 /// The same in `shaders/wgsl/support/uniform.wgsl`.
 const RADIUS: &str = "3";
 
@@ -78,6 +81,12 @@ impl Specialization {
                 (KernelForm::Known, Kernel::Power(_)) => KernelModule::Power,
                 (_, Kernel::Wyvill) => KernelModule::Wyvill,
                 (_, Kernel::Perlin) => KernelModule::Perlin,
+                (_, Kernel::CubicSpline) => KernelModule::CubicSpline,
+                (_, Kernel::QuinticSpline) => KernelModule::QuinticSpline,
+                (_, Kernel::WendlandC2) => KernelModule::WendlandC2,
+                (_, Kernel::WendlandC4) => KernelModule::WendlandC4,
+                (_, Kernel::WendlandC6) => KernelModule::WendlandC6,
+                (_, Kernel::Gaussian(_)) => KernelModule::Gaussian,
             },
             radii: self.radius_bits.is_none(),
             strengths: self.strengths,
@@ -89,12 +98,16 @@ impl Specialization {
 
     /// Values of the shared modules' override constants, by id.
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
-        let exponent = match self.kernel {
-            Kernel::Power(exponent) => Some((EXPONENT, f64::from(exponent.get()))),
-            Kernel::Wyvill | Kernel::Perlin => None,
+        let mut constants = match self.kernel {
+            Kernel::Power(exponent) => vec![(EXPONENT, f64::from(exponent.get()))],
+            Kernel::Gaussian(cut) => {
+                let gaussian = cut.profile();
+                GAUSSIAN.into_iter().zip([gaussian.exponent(), gaussian.scale()]).collect()
+            }
+            _ => Vec::new(),
         };
-        let radius = self.radius_bits.map(|bits| (RADIUS, f64::from(f32::from_bits(bits))));
-        exponent.into_iter().chain(radius).collect()
+        constants.extend(self.radius_bits.map(|bits| (RADIUS, f32::from_bits(bits).into())));
+        constants
     }
 }
 

@@ -30,18 +30,35 @@ pub struct SceneHeader {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct KernelRead {
-    /// 0: power, 1: Wyvill's, 2: Perlin's.
+    /// 0: power, 1: Wyvill's, 2: Perlin's, 3 and 4: the cubic and the quintic spline, 5 to 7: Wendland's by
+    /// smoothness, 8: a Gaussian.
     pub family: u32,
     /// α of a power kernel, 1 of the others.
     pub exponent: u32,
+    /// c = cut²/2 of a Gaussian, 0 of the others.
+    pub gaussian_exponent: f32,
+    /// 1/(eᶜ − 1) of a Gaussian, 0 of the others.
+    pub gaussian_scale: f32,
 }
 
 impl From<Kernel> for KernelRead {
     fn from(kernel: Kernel) -> Self {
+        let of_family =
+            |family| Self { family, exponent: 1, gaussian_exponent: 0.0, gaussian_scale: 0.0 };
         match kernel {
-            Kernel::Power(exponent) => Self { family: 0, exponent: exponent.get().into() },
-            Kernel::Wyvill => Self { family: 1, exponent: 1 },
-            Kernel::Perlin => Self { family: 2, exponent: 1 },
+            Kernel::Power(exponent) => Self { exponent: exponent.get().into(), ..of_family(0) },
+            Kernel::Wyvill => of_family(1),
+            Kernel::Perlin => of_family(2),
+            Kernel::CubicSpline => of_family(3),
+            Kernel::QuinticSpline => of_family(4),
+            Kernel::WendlandC2 => of_family(5),
+            Kernel::WendlandC4 => of_family(6),
+            Kernel::WendlandC6 => of_family(7),
+            Kernel::Gaussian(cut) => Self {
+                gaussian_exponent: cut.profile().exponent() as f32,
+                gaussian_scale: cut.profile().scale() as f32,
+                ..of_family(8)
+            },
         }
     }
 }

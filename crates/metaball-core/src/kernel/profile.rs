@@ -238,6 +238,16 @@ impl Gaussian {
         let exponent = 0.5 * deviations * deviations;
         Self { exponent, scale: 1.0 / (Real::exp(exponent) - 1.0) }
     }
+
+    /// c: how far down the cut is, in powers of e.
+    pub fn exponent(self) -> f64 {
+        self.exponent
+    }
+
+    /// 1/(eᶜ − 1).
+    pub fn scale(self) -> f64 {
+        self.scale
+    }
 }
 
 impl Profile for Gaussian {

@@ -29,7 +29,10 @@ fn host_structs_are_their_twins() {
         (wgsl("core/status", "Status"), host_layout!(FrameStatus { unfinished, needed })),
         (wgsl("core/scene", "Support"), host_layout!(Support { center, radius })),
         (wgsl("core/scene", "SceneHeader"), host_layout!(SceneHeader { threshold, balls })),
-        (wgsl("core/kernel_read", "KernelRead"), host_layout!(KernelRead { family, exponent })),
+        (
+            wgsl("core/kernel_read", "KernelRead"),
+            host_layout!(KernelRead { family, exponent, gaussian_exponent, gaussian_scale }),
+        ),
         (
             wgsl("core/work_record", "Work"),
             host_layout!(Work {
