@@ -7,7 +7,7 @@ mod wyvill;
 use metaball_core::Kernel;
 use metaball_core::kernel::{ByProfile, Profile};
 
-use self::convex::Convex;
+use self::convex::{Convex, HighPower};
 use self::power::Power;
 use self::wyvill::Wyvill;
 use super::lanes::{Lanes, Mask};
@@ -44,6 +44,9 @@ pub(super) trait LaneKernel<const N: usize>: Copy {
 pub(super) struct Stretch {
     /// Its Bernstein coefficients: the values at the ends and, between them, the polar form.
     pub(super) v: [Lanes<f32>; 3],
+    /// v where the whole ray is nearest, and whether that is in the interval.
+    pub(super) peak: Lanes<f32>,
+    pub(super) has_peak: Mask,
     /// dv/dt at the ends.
     pub(super) slopes: [Lanes<f32>; 2],
     /// How far rounding can move v, and dv/dt.
@@ -56,6 +59,13 @@ impl Stretch {
     #[inline(always)]
     pub(super) fn top(&self) -> Lanes<f32> {
         self.v[0].max(self.v[1]).max(self.v[2])
+    }
+
+    /// The greatest v, but for its margin.
+    #[inline(always)]
+    fn greatest(&self) -> Lanes<f32> {
+        let ends = self.v[0].max(self.v[2]);
+        self.has_peak.select(self.peak.max(ends), ends)
     }
 
     /// v is nowhere less, but for its margin.
@@ -71,7 +81,8 @@ pub(super) struct Bounds<const N: usize> {
     /// nowhere above it.
     pub(super) most: [Lanes<f32>; N],
     pub(super) least: [Lanes<f32>; N],
-    /// At the interval's ends at least this, but for `error`.
+    /// At the interval's start at most this, and at its ends at least this, but for `error`.
+    pub(super) start: Lanes<f32>,
     pub(super) ends: [Lanes<f32>; 2],
     /// How far rounding of the parabola can move it.
     pub(super) error: Lanes<f32>,
@@ -103,10 +114,7 @@ pub(super) fn by_kernel<C: ByKernel>(kernel: Kernel, computation: C) -> Option<C
             2 => computation.run::<_, 5>(Power),
             3 => computation.run::<_, 7>(Power),
             4 => computation.run::<_, 9>(Power),
-            5 => computation.run::<_, 11>(Power),
-            6 => computation.run::<_, 13>(Power),
-            7 => computation.run::<_, 15>(Power),
-            _ => computation.run::<_, 17>(Power),
+            exponent => computation.run(Convex(HighPower(exponent.into()))),
         },
         _ => return kernel.with_profile(OfProfile(computation)),
     })
@@ -204,6 +212,7 @@ fn of_polynomial<const N: usize>(
         most: terms,
         least,
         // There the raised parabolas are the true ones.
+        start: terms[0],
         ends: [terms[0], terms[N - 1]],
         error: strength * v.margin * slope,
         magnitude: zero,

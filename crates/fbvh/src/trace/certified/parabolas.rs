@@ -26,7 +26,8 @@ pub(super) struct Sums<const N: usize> {
     pub(super) most: [Lanes<f32>; N],
     /// The same nowhere above it.
     pub(super) least: [Lanes<f32>; N],
-    /// At the interval's ends the field is nowhere less, but for rounding.
+    /// At the interval's start the field is no more, and at its ends no less, but for rounding.
+    pub(super) start: Lanes<f32>,
     pub(super) ends: [Lanes<f32>; 2],
     /// How far rounding of the parabolas can move the field.
     pub(super) error: Lanes<f32>,
@@ -52,13 +53,17 @@ impl<const N: usize> Sums<N> {
         let zero = Lanes::splat(0.0f32);
         let (mut most, mut least) = ([zero; N], [zero; N]);
         let (mut error, mut magnitude, mut decreases) = (zero, zero, Mask::NONE);
-        let (mut ends, mut rise, mut steepness) = ([zero; 2], [zero; 2], zero);
+        let (mut at_start, mut ends) = (zero, [zero; 2]);
+        let (mut rise, mut steepness) = ([zero; 2], zero);
         let (start_square, product, end_square) = (start * start, start * end, end * end);
         let middle = (start + end) * 0.5;
         for ball in parabolas {
             let at = |t: Lanes<f32>, square| ball.constant + ball.linear * t - ball.square * square;
             let slope_at = |t: Lanes<f32>| ball.linear - ball.square * t * 2.0;
+            let at_peak = ball.linear * (ball.square * 2.0).map(f32::recip);
             let stretch = Stretch {
+                peak: ball.constant + ball.linear * at_peak * 0.5,
+                has_peak: start.is_less(at_peak) & at_peak.is_less(end),
                 v: [at(start, start_square), at(middle, product), at(end, end_square)],
                 slopes: [slope_at(start), slope_at(end)],
                 margin: ball.margin,
@@ -73,6 +78,7 @@ impl<const N: usize> Sums<N> {
                 most[k] += bounds.most[k];
                 least[k] += bounds.least[k];
             }
+            at_start += bounds.start;
             error += bounds.error;
             magnitude += bounds.magnitude;
             decreases = decreases | reaches & !bounds.rises;
@@ -82,6 +88,7 @@ impl<const N: usize> Sums<N> {
             }
             steepness += bounds.steepness;
         }
-        Self { most, least, ends, error, magnitude, decreases, rise, steepness }
+        let start = at_start;
+        Self { most, least, start, ends, error, magnitude, decreases, rise, steepness }
     }
 }

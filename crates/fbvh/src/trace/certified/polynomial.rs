@@ -116,7 +116,7 @@ fn search_by_bounds<K: LaneKernel<N>, const N: usize>(
         let Some(bounds) = Enclosure::new(kernel, query, &blocks.parabolas, (start, end)) else {
             return Answer::Undecided;
         };
-        if count == 0 && relative.starts && bounds.upper[0] >= 0.0 {
+        if count == 0 && relative.starts && bounds.start >= 0.0 {
             let is_beyond = bounds.ends[0] > 0.0;
             return if is_beyond { Answer::StartsBeyond } else { Answer::Undecided };
         }
@@ -130,7 +130,7 @@ fn search_by_bounds<K: LaneKernel<N>, const N: usize>(
             (start, end) = (end, (end + 2.0 * (end - start)).min(last));
             continue;
         }
-        if bounds.upper[0] >= 0.0 {
+        if bounds.start >= 0.0 {
             return Answer::Undecided;
         }
         let width = f64::from(end) - f64::from(start);
@@ -145,7 +145,8 @@ fn search_by_bounds<K: LaneKernel<N>, const N: usize>(
             return root::nearest_float(kernel, (query, blocks), ray, guess, ends, counter);
         }
         // No crossing before `clear`; nor a little short of it, where the field is clear of T.
-        let clear = negative_until(bounds.upper).unwrap_or(1.0);
+        let begins_above = bounds.upper[0] >= 0.0;
+        let clear = if begins_above { 0.0 } else { negative_until(bounds.upper).unwrap_or(1.0) };
         let beyond = [1.0 / 32.0, 1.0 / 8.0, 0.5]
             .map(|part| clear + part * (1.0 - clear))
             .into_iter()

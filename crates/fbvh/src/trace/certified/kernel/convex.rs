@@ -1,13 +1,15 @@
-//! Kernels that are convex in v, by chords and tangents.
+//! Kernels that are convex in v, with a second derivative that rises with v, by parabolas in v.
 //!
-//! On a range of v from l to h a convex kernel is nowhere above its chord, and nowhere below its tangent in
-//! the middle of the range: two straight lines, and v is a parabola along the ray, so the ball is enclosed by
-//! two parabolas that differ by k″(h − l)²/8; at the interval's ends tangents at l and h are closer. Its slope along the ray is dk/dv, which is between those at l
-//! and h, times dv/dt, a straight line. Where dv/dt is positive the lesser one bounds the product from below,
-//! where it is negative the greater one: these two straight lines together are concave, so the line through
-//! their ends is nowhere above.
+//! On a range of v from l to h such a kernel is nowhere above the parabola with its values at l and h and
+//! its slope at l, and nowhere below the one with its slope at h instead: what either misses is k‴/6 times
+//! (v − l)²(v − h) or (v − l)(v − h)². v is a parabola along the ray, so both are polynomials of degree four
+//! along it. The upper one is a sum of terms that are not negative, and rises with v, so v may be raised to 0.
+//!
+//! The slope along the ray is dk/dv, which is between those at l and h, times dv/dt, a straight line. Where
+//! dv/dt is positive the lesser one bounds the product from below, where it is negative the greater one: these
+//! two straight lines together are concave, so the line through their ends is nowhere above.
 
-use metaball_core::kernel::Profile;
+use metaball_core::kernel::{Profile, Real};
 
 use super::super::lanes::{Lanes, Mask, array_of};
 use super::super::parabolas::UNIT;
@@ -17,17 +19,53 @@ use super::{Bounds, LaneKernel, Missed, Stretch};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Convex<P>(pub(super) P);
 
+/// v^α for α from 5 to 8: products of so many polynomials would take longer.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HighPower(pub(super) usize);
+
+impl HighPower {
+    /// So many factors v.
+    #[inline(always)]
+    fn product<R: Real>(v: R, factors: usize) -> R {
+        (1..factors).fold(v, |product, _| product * v)
+    }
+}
+
+impl Profile for HighPower {
+    #[inline(always)]
+    fn value<R: Real>(self, v: R) -> R {
+        Self::product(v, self.0)
+    }
+
+    #[inline(always)]
+    fn slope<R: Real>(self, v: R) -> R {
+        Self::product(v, self.0 - 1) * R::of(self.0 as f64)
+    }
+
+    #[inline(always)]
+    fn bend<R: Real>(self, v: R) -> R {
+        Self::product(v, self.0 - 2) * R::of((self.0 * (self.0 - 1)) as f64)
+    }
+
+    /// At v = (α − 2)/(α − 1).
+    fn peak(self) -> (f64, f64) {
+        let at = (self.0 as f64 - 2.0) / (self.0 as f64 - 1.0);
+        ((1.0 - at) * self.bend(at), at)
+    }
+}
+
 /// What rounding of a profile is worth in v, where it is not a part of the value.
 const OWN_MARGIN: f32 = 16.0 * UNIT;
 
-/// Ranges of v that are shorter have the slope at their end for that of their chord: between values so close
-/// to each other it would be all rounding.
+/// Ranges of v that are shorter have lines for parabolas, with the slope at h: differences of values so close to
+/// each other would be all rounding.
 const SHORT: f32 = 1.0 / 1024.0;
 
-impl<P: Profile> LaneKernel<3> for Convex<P> {
+impl<P: Profile> LaneKernel<5> for Convex<P> {
     const BOUNDS_SLOPES: bool = true;
-    /// Sixteen units in the last place of 1 (see [`Profile`]), twice.
-    const ROUNDINGS: usize = 64;
+    /// Sixteen units in the last place of 1 in each value and slope (see [`Profile`]), of which differences are
+    /// taken twice.
+    const ROUNDINGS: usize = 192;
 
     #[inline(always)]
     fn value(self, v: Lanes<f32>) -> Lanes<f32> {
@@ -41,58 +79,62 @@ impl<P: Profile> LaneKernel<3> for Convex<P> {
 
     #[inline(always)]
     fn value_and_slope(self, v: Lanes<f64>) -> (Lanes<f64>, Lanes<f64>) {
-        let zero = Lanes::splat(0.0f64);
-        let slope = self.0.slope(v);
-        (self.0.value(v), v.zip(slope, |v, slope| if v > 0.0 { slope } else { 0.0 }) + zero)
+        let slope: Lanes<f64> = self.0.slope(v);
+        (self.0.value(v), v.zip(slope, |v, slope| if v > 0.0 { slope } else { 0.0 }))
     }
 
-    /// Coefficients are right to 128u of what they are made of: profiles to 32u, and the chord's slope errs by
-    /// 4u of the value at its end over its length, which is at most twice the way that it is followed.
+    /// Values and slopes are right to 32u, and their differences to as much of what they are of. These are taken
+    /// over the range's length, and followed for no more than that, but for a vertex of v between its ends, where
+    /// the polar form reaches beyond h by the range's length at most.
     #[inline(always)]
-    fn bounds(self, v: &Stretch, strength: Lanes<f32>, reaches: Mask) -> Bounds<3> {
+    fn bounds(self, v: &Stretch, strength: Lanes<f32>, reaches: Mask) -> Bounds<5> {
         let (zero, one) = (Lanes::splat(0.0f32), Lanes::splat(1.0f32));
         let strength = reaches.select(strength, zero);
         let margin = v.margin.map(|margin| margin + OWN_MARGIN);
         let covers = margin.is_at_most(v.bottom());
         let low = (v.bottom() - margin).max(zero).min(one);
-        let high = (v.top() + margin).min(one).max(low);
-        let middle = (low + high) * 0.5;
+        let high = (v.greatest() + margin).min(one).max(low);
         let profile = self.0;
-        let (at_low, gentlest) = (profile.value(low), profile.slope(low));
-        let (at_high, steepest) = (profile.value(high), profile.slope(high));
-        let (at_middle, slope) = (profile.value(middle), profile.slope(middle));
+        let (at_low, gentlest) = (profile.value(low) * strength, profile.slope(low) * strength);
+        let (at_high, steepest) = (profile.value(high) * strength, profile.slope(high) * strength);
         let width = high - low;
+        let inverse = width.max(Lanes::splat(SHORT)).map(f32::recip);
         let is_short = width.is_less(Lanes::splat(SHORT));
-        let chord = is_short.select(steepest, (at_high - at_low) / width.max(Lanes::splat(SHORT)));
-        // Beyond the rim the slope is 0.
-        let gentlest = covers.select(gentlest, zero);
-        let tangent = covers.select(slope * strength, zero);
-        let touch = covers.select(at_middle * strength, zero) - tangent * (middle + margin);
+        let chord = (at_high - at_low) * inverse;
+        let bend_low = is_short.select(zero, ((chord - gentlest) * inverse).max(zero));
+        let bend_high = is_short.select(zero, ((steepest - chord) * inverse).max(zero));
+        let slope_low = is_short.select(steepest, gentlest);
+
+        let above: [_; 3] = array_of(|k| v.v[k].max(zero) + margin - low);
+        let most = quadratic(at_low, slope_low, bend_low, &above);
+        let below: [_; 3] = array_of(|k| v.v[k] - high);
+        let base = at_high - steepest * margin;
+        let mut least = quadratic(base, steepest, bend_high, &below);
+        for least in &mut least {
+            *least = covers.select(*least, zero);
+        }
         let ends = array_of(|end| {
-            let at_end = v.v[2 * end] - margin;
-            let from_high = at_high + steepest * (at_end - high);
-            let from_low = at_low + gentlest * (at_end - low);
-            from_high.max(from_low) * strength
+            let tangent = base + steepest * below[2 * end];
+            covers.select(least[4 * end], tangent.max(zero))
         });
-        let (chord, base) = (chord * strength, (at_low - chord * low + chord * margin) * strength);
-        let most: [_; 3] = array_of(|k| base + chord * v.v[k].max(zero));
-        let least: [_; 3] = array_of(|k| touch + tangent * v.v[k]);
-        // With the margin, so that one that is no number is not lost.
-        let reach = abs(v.v[0]).max(abs(v.v[1])).max(abs(v.v[2])) + one + margin;
-        let rises: [_; 2] = array_of(|end| {
+        let start = profile.value((v.v[0] + margin).max(zero).min(one)) * strength;
+        let gentlest = covers.select(gentlest, zero);
+        let rise = array_of(|end| {
             let along = v.slopes[end] - v.slope_margin;
-            zero.is_less(along).select(gentlest, steepest) * along * strength
+            zero.is_less(along).select(gentlest, steepest) * along
         });
         let slopes = abs(v.slopes[0]).max(abs(v.slopes[1])) + v.slope_margin;
         Bounds {
-            most: [most[0], most[1] * 2.0, most[2]],
-            least: [least[0], least[1] * 2.0, least[2]],
+            most,
+            least,
+            start,
             ends,
-            error: zero,
-            magnitude: (at_high + steepest * reach) * strength,
+            // The margin is in all of it; no number where that is none.
+            error: margin * 0.0,
+            magnitude: at_high + steepest * (width + margin) * 8.0,
             rises: Mask::NONE,
-            rise: rises,
-            steepness: steepest * slopes * strength,
+            rise,
+            steepness: steepest * slopes,
         }
     }
 
@@ -108,7 +150,7 @@ impl<P: Profile> LaneKernel<3> for Convex<P> {
         let (first, last) = (low.max(zero), high.max(zero).min(Lanes::splat(1.0)));
         let is_inside = zero.is_less(low);
         // Differences of rounded numbers.
-        let rounded = 4.0 * <Self as LaneKernel<3>>::ROUNDINGS as f32 * UNIT;
+        let rounded = 4.0 * <Self as LaneKernel<5>>::ROUNDINGS as f32 * UNIT;
         let (gentlest, steepest) = (profile.slope(first), profile.slope(last));
         let slope = steepest * (1.0 + rounded) - gentlest;
         let bend =
@@ -130,4 +172,27 @@ impl<P: Profile> LaneKernel<3> for Convex<P> {
 #[inline(always)]
 fn abs(lanes: Lanes<f32>) -> Lanes<f32> {
     lanes.map(f32::abs)
+}
+
+/// Bernstein coefficients, times their binomials, of `value` + `slope`·x + `bend`·x² where x is a parabola
+/// with these.
+#[inline(always)]
+fn quadratic(
+    value: Lanes<f32>,
+    slope: Lanes<f32>,
+    bend: Lanes<f32>,
+    [first, middle, last]: &[Lanes<f32>; 3],
+) -> [Lanes<f32>; 5] {
+    let (first, middle, last) = (*first, *middle, *last);
+    let (inner, outer) = (middle + first, middle + last);
+    let (by_first, by_last) = (slope + bend * first, slope + bend * last);
+    [
+        value + first * by_first,
+        value * 4.0 + (slope * inner + bend * first * middle * 2.0) * 2.0,
+        value * 6.0
+            + slope * (first + last + middle * 4.0)
+            + bend * (first * last * 2.0 + middle * middle * 4.0),
+        value * 4.0 + (slope * outer + bend * last * middle * 2.0) * 2.0,
+        value + last * by_last,
+    ]
 }

@@ -10,7 +10,8 @@ use super::super::query::Query;
 pub(super) struct Enclosure<const N: usize> {
     pub(super) upper: [Lanes<f32>; N],
     pub(super) lower: [Lanes<f32>; N],
-    /// At the interval's ends at least this.
+    /// At the interval's start at most this, and at its ends at least this.
+    pub(super) start: Lanes<f32>,
     pub(super) ends: [Lanes<f32>; 2],
     /// Where the field rises on the interval.
     pub(super) increases: Mask,
@@ -52,15 +53,16 @@ impl<const N: usize> Enclosure<N> {
         let rounding = (parabolas.len() + 4 * N + 48 + K::ROUNDINGS) as f32 * UNIT;
         let error = sums.error.map(|error| error * 1.0001 + 8.0 * UNIT * threshold);
         // Differences err by as much of what they are of, and so does what they are rounded by.
-        let error = error + sums.magnitude * (2.0 * rounding);
+        let rounded = sums.magnitude * (2.0 * rounding);
         let most: [_; N] = array_of(|k| sums.most[k] * inverses[k] as f32);
         let least: [_; N] = array_of(|k| sums.least[k] * inverses[k] as f32);
         let up = |c: Lanes<f32>| (c * (1.0 + rounding) + error).map(|c| c - threshold);
-        let down = |c: Lanes<f32>| (c * (1.0 - rounding) - error).map(|c| c - threshold);
+        let down = |c: Lanes<f32>| (c * (1.0 - rounding) - error - rounded).map(|c| c - threshold);
         let differs = (0..N).fold(Mask::NONE, |differs, k| differs | !most[k].is_at_most(least[k]));
         Self {
             upper: array_of(|k| up(most[k])),
             lower: array_of(|k| down(least[k])),
+            start: up(sums.start),
             ends: [down(sums.ends[0]), down(sums.ends[1])],
             increases: if K::BOUNDS_SLOPES {
                 let least = sums.steepness * (4.0 * rounding);
@@ -110,8 +112,8 @@ impl<const N: usize> Enclosure<N> {
         x
     }
 
-    /// Where the upper polynomials, negative at 0, may first reach 0, never after the first root; 1
-    /// where they reach it nowhere. As [`negative_until`](super::super::bernstein::negative_until).
+    /// Where the upper polynomials may first reach 0, never after the first root; 1 where they reach it nowhere,
+    /// and 0 where they begin above it. As [`negative_until`](super::super::bernstein::negative_until).
     #[inline(always)]
     pub(super) fn negative_until(&self) -> Lanes<f32> {
         const CLIPS: usize = 2;
@@ -137,6 +139,6 @@ impl<const N: usize> Enclosure<N> {
                 right_of(&mut coefficients, x);
             }
         }
-        start
+        upper[0].is_less(zero).select(start, zero)
     }
 }

@@ -270,7 +270,7 @@ impl Search<'_> {
         for _ in 0..most_intervals {
             let bounds = along.enclosure(start, end);
             // Not where a ray starts inside, nor where rounding is as large as T.
-            open = open & bounds.is_known & bounds.upper[0].is_less(zero);
+            open = open & bounds.is_known & bounds.start.is_less(zero);
             if self.query.any {
                 let inside = zero.is_less(bounds.ends[0]) | zero.is_less(bounds.ends[1]);
                 self.results.somewhere = self.results.somewhere | open & inside;

@@ -123,9 +123,11 @@ impl Encloses<COUNT> for AlongRays {
         let increases =
             (1..COUNT).fold(!Mask::NONE, |all, k| all & least.is_less(part[k] - part[k - 1]));
         let lower: [_; COUNT] = array_of(|k| part[k] - self.error);
+        let upper: [_; COUNT] = array_of(|k| part[k] + self.error);
         Enclosure {
-            upper: array_of(|k| part[k] + self.error),
+            upper,
             lower,
+            start: upper[0],
             ends: [lower[0], lower[COUNT - 1]],
             increases,
             is_exact: Mask::NONE,

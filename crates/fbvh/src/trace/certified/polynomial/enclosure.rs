@@ -11,7 +11,8 @@ use super::super::query::{Crossing, Query};
 pub(super) struct Enclosure<const N: usize> {
     pub(super) upper: [f64; N],
     pub(super) lower: [f64; N],
-    /// At the interval's ends at least this.
+    /// At the interval's start at most this, and at its ends at least this.
+    pub(super) start: f64,
     pub(super) ends: [f64; 2],
     /// Whether the field is a polynomial on the interval: no support's rim is in it.
     pub(super) is_exact: bool,
@@ -29,13 +30,14 @@ impl<const N: usize> Enclosure<N> {
         (start, end): (f32, f32),
     ) -> Option<Self> {
         let (start, end) = (Lanes::splat(start), Lanes::splat(end));
-        let Sums { most, least, ends, error, magnitude, rise, steepness, .. } =
+        let Sums { most, least, start: at_start, ends, error, magnitude, rise, steepness, .. } =
             Sums::<N>::new(kernel, parabolas, start, end);
         let inverses = const { inverse_binomials::<N>() };
         // Products and sums of non-negative terms: one rounding each. Differences err by as much of what they
         // are of, and so does what they are rounded by.
         let rounding = (parabolas.len() + 4 * N + 16 + K::ROUNDINGS) as f64 * f64::from(UNIT);
-        let error = f64::from(error.sum()) * 1.0001 + f64::from(magnitude.sum()) * (2.0 * rounding);
+        let error = f64::from(error.sum()) * 1.0001;
+        let rounded = f64::from(magnitude.sum()) * (2.0 * rounding);
         // NaN where margins overflow, of balls that are tiny compared with the leaf.
         if error.is_nan() || error >= query.threshold {
             return None;
@@ -44,13 +46,14 @@ impl<const N: usize> Enclosure<N> {
         let least: [f64; N] = array_of(|k| f64::from(least[k].sum()) * inverses[k]);
         let is_exact = most == least;
         let up = |c: f64| c * (1.0 + rounding) + error - query.threshold;
-        let down = |c: f64| c * (1.0 - rounding) - error - query.threshold;
+        let down = |c: f64| c * (1.0 - rounding) - error - rounded - query.threshold;
         let least_slope = f64::from(steepness.sum()) * 4.0 * rounding;
         let rise = rise.map(|rise| f64::from(rise.sum()));
         Some(match query.crossing {
             Crossing::Entry => Self {
                 upper: array_of(|k| up(most[k])),
                 lower: array_of(|k| down(least[k])),
+                start: up(at_start.sum().into()),
                 ends: array_of(|k| down(ends[k].sum().into())),
                 is_exact,
                 increases: K::BOUNDS_SLOPES && rise.iter().all(|&rise| rise > least_slope),
@@ -58,6 +61,7 @@ impl<const N: usize> Enclosure<N> {
             Crossing::Exit => Self {
                 upper: array_of(|k| -down(least[k])),
                 lower: array_of(|k| -up(most[k])),
+                start: -down(least[0]),
                 ends: [-up(most[0]), -up(most[N - 1])],
                 is_exact,
                 increases: false,
