@@ -1,6 +1,6 @@
 //! What can be wrong with a spec.
 
-use metaball_core::{CameraError, SceneError, ViewError};
+use metaball_core::{CameraError, CutError, SceneError, ViewError};
 use thiserror::Error;
 
 /// Why there is no scene.
@@ -51,6 +51,9 @@ pub enum LoadError {
     /// The parts make no scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The number makes no Gaussian.
+    #[error(transparent)]
+    Cut(#[from] CutError),
     /// The numbers make no camera.
     #[error(transparent)]
     Camera(#[from] CameraError),

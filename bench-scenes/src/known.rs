@@ -107,6 +107,36 @@ const KNOWN: &[KnownScene] = &[
     small("one-power-8", "One ball, power kernel α = 8.", Small(|| small::one_power(8))),
     small("one-wyvill", "One ball, Wyvill's kernel.", Small(|| small::one(Kernel::Wyvill))),
     small("one-perlin", "One ball, Perlin's kernel.", Small(|| small::one(Kernel::Perlin))),
+    small(
+        "two-cubic-spline",
+        "Two balls with one surface, the cubic spline of SPH.",
+        Small(|| small::two(Kernel::CubicSpline)),
+    ),
+    small(
+        "two-quintic-spline",
+        "Two balls with one surface, the quintic spline of SPH.",
+        Small(|| small::two(Kernel::QuinticSpline)),
+    ),
+    small(
+        "two-wendland-c2",
+        "Two balls with one surface, Wendland's function of smoothness C².",
+        Small(|| small::two(Kernel::WendlandC2)),
+    ),
+    small(
+        "two-wendland-c4",
+        "Two balls with one surface, Wendland's function of smoothness C⁴.",
+        Small(|| small::two(Kernel::WendlandC4)),
+    ),
+    small(
+        "two-wendland-c6",
+        "Two balls with one surface, Wendland's function of smoothness C⁶.",
+        Small(|| small::two(Kernel::WendlandC6)),
+    ),
+    small(
+        "two-gaussian",
+        "Two balls with one surface, a Gaussian that is cut at two standard deviations.",
+        Small(small::two_gaussian),
+    ),
     small("two-merging", "Two balls with one surface.", Small(small::two_merging)),
     small(
         "five-close-up",

@@ -38,6 +38,16 @@ pub(crate) fn two_merging() -> Result<Shot, LoadError> {
     Ok((scene, looking(Vec3::new(1.2, 0.9, 4.0), Vec3::ZERO)?))
 }
 
+/// Two balls under any kernel, so near that even those that fall fastest have one surface.
+pub(crate) fn two(kernel: Kernel) -> Result<Shot, LoadError> {
+    let scene = quartic([-0.35, 0.35].map(|x| Metaball::new(Vec3::X * x, 1.0)))?;
+    Ok((scene.with_kernel(kernel), looking(Vec3::new(1.2, 0.9, 3.0), Vec3::ZERO)?))
+}
+
+pub(crate) fn two_gaussian() -> Result<Shot, LoadError> {
+    two(Kernel::gaussian(2.0)?)
+}
+
 pub(crate) fn fifteen_coincident() -> Result<Shot, LoadError> {
     let scene = quartic([Metaball::new(Vec3::ZERO, 1.0); 15])?;
     Ok((scene, looking(Vec3::new(0.0, 0.0, 4.0), Vec3::ZERO)?))

@@ -4,7 +4,7 @@
 //! another case.
 
 use glam::Vec3;
-use metaball_core::{Camera, Metaball};
+use metaball_core::{Camera, Kernel, Metaball};
 
 use super::case::{Case, Category, SIZE};
 use super::shape::pair;
@@ -91,6 +91,18 @@ pub(super) const CASES: &[Case] = &[
         make: exponent,
     },
     Case {
+        name: "cut",
+        category: Category::Magnitude,
+        about: "A pair of balls under Gaussians, which are steeper the farther out they are cut; nearer, their \
+                slopes jump more.",
+        parameter: "cut of the Gaussian, standard deviations",
+        values: &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
+        quick: &[2.0],
+        size: SIZE,
+        redraw: None,
+        make: cut,
+    },
+    Case {
         name: "threshold-near-zero",
         category: Category::Magnitude,
         about: "The surface nears the rims of the supports.",
@@ -158,6 +170,11 @@ fn strength(value: f64) -> Result<Shot, LoadError> {
 fn exponent(value: f64) -> Result<Shot, LoadError> {
     let kernel = particle_files::kernel_named("power", Some(value.round() as i64))?;
     Ok((pair(0.4)?.with_kernel(kernel), looking(Vec3::new(1.2, 0.9, 4.0), Vec3::ZERO)?))
+}
+
+fn cut(value: f64) -> Result<Shot, LoadError> {
+    let kernel = Kernel::gaussian(value)?;
+    Ok((pair(0.3)?.with_kernel(kernel), looking(Vec3::new(1.2, 0.9, 4.0), Vec3::ZERO)?))
 }
 
 fn threshold_near_zero(value: f64) -> Result<Shot, LoadError> {

@@ -77,6 +77,18 @@ pub(super) const CASES: &[Case] = &[
         redraw: None,
         make: touching,
     },
+    Case {
+        name: "kink",
+        category: Category::Shape,
+        about: "Two Gaussians, of which the rim of one, where its slope jumps, is near the surface of the other \
+                or, for negative values, inside it.",
+        parameter: "gap between the rim and the surface, radii",
+        values: AROUND_ZERO,
+        quick: &[1e-3, 0.0],
+        size: SIZE,
+        redraw: None,
+        make: kink,
+    },
 ];
 
 /// Two balls so far to either side of the origin along x.
@@ -121,6 +133,13 @@ fn sheet(value: f64) -> Result<Shot, LoadError> {
 
 fn touching(value: f64) -> Result<Shot, LoadError> {
     Ok((pair(1.0 + 0.5 * value)?, looking(Vec3::new(0.3, 0.2, 6.0), Vec3::ZERO)?))
+}
+
+fn kink(value: f64) -> Result<Shot, LoadError> {
+    let kernel = Kernel::gaussian(2.0)?;
+    let core = kernel.ratio_at(f64::from(THRESHOLD)).unwrap_or(1.0);
+    let scene = pair(0.5 * (1.0 + core + value))?.with_kernel(kernel);
+    Ok((scene, looking(Vec3::new(1.2, 0.9, 4.0), Vec3::ZERO)?))
 }
 
 fn two_levels(value: f64) -> Result<Shot, LoadError> {

@@ -73,6 +73,20 @@ fn cases_are_sorted_by_category() {
     assert!(cases().windows(2).all(|pair| pair[0].category <= pair[1].category));
 }
 
+/// On the axis the surface of a ball alone is as far from the rim of the other's support as the value says, to
+/// the rounding of the centres to f32.
+#[test]
+fn kinks_are_as_near_surfaces_as_they_say() {
+    for &value in case("kink").values {
+        let scene = case("kink").scene(value).expect("legal").scene;
+        let [left, right] = [0, 1].map(|ball| scene.ball(ball));
+        let core = scene.kernel().core_radius(&left, scene.threshold()).expect("it shows");
+        let gap = f64::from(right.center.x - left.center.x) - core - f64::from(right.radius);
+        assert!((gap - value).abs() < 2.5e-7, "{gap} for {value}");
+        assert!(scene.kernel().has_kink());
+    }
+}
+
 /// The roundings of centres and T to f32, 6e-8 each, times slopes up to 4.
 #[test]
 fn necks_and_sheets_are_as_thin_as_they_say() {

@@ -19,13 +19,14 @@ pub struct Deviation {
 pub fn cubic_deviation(kernel: Kernel) -> Deviation {
     const STEPS: u32 = 256;
     // Between two samples the difference moves by less than its slope, at most 2α + 1.5 in x, allows:
-    // what the grid can miss at an extremum is the square of half a step times its curvature.
+    // what the grid can miss at an extremum is the square of half a step times its curvature. Of short
+    // chords the kernel is nearly a power of v, but a Gaussian's that is cut far out only of very short ones.
     const MISSED: f64 = 64.0 / (STEPS * STEPS) as f64;
     let fractions = || (1..=STEPS).map(|step| f64::from(step) / f64::from(STEPS));
     // Along power kernels all chords are alike.
     let depths: Vec<f64> = match kernel {
         Kernel::Power(_) => vec![1.0],
-        _ => fractions().collect(),
+        _ => fractions().chain((9..=20).map(|halvings| 0.5f64.powi(halvings))).collect(),
     };
     let bounds = Deviation { least: 0.0, greatest: 0.0 };
     let found = depths.iter().flat_map(|&a| fractions().map(move |x| (a, x))).fold(

@@ -43,6 +43,6 @@ fn a_generalized_scene_takes_more() {
         let general = equal_balls().generalized(generality);
         bytes(&gpu, &general) - bytes(&gpu, &equal_balls())
     };
-    let expected = [8, 8, 0, 4 * BALLS, 4 * BALLS];
+    let expected = [16, 16, 0, 4 * BALLS, 4 * BALLS];
     assert_eq!(Generality::ALL.map(more), expected);
 }
