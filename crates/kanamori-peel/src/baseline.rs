@@ -15,8 +15,8 @@
 //!
 //! # Practice
 //! Needs no adapter. [`Method`] is it behind [`HostMethod`], to be compared. Lists have no capacity to exceed and coincident points are all kept, so that answers
-//! are right up to the threshold of clipping, in parts of an interval. Perlin's kernel is no polynomial
-//! along a ray and is refused.
+//! are right up to the threshold of clipping, in parts of an interval. A kernel that is no polynomial
+//! along a ray, as Perlin's or a spline of SPH, is refused.
 
 mod bernstein;
 mod chord;

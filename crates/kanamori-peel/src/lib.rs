@@ -25,8 +25,8 @@
 //!
 //! # Changes versus the paper
 //! *Coefficients* of appendix A hold with a = Q²/R², Q half the chord; the text has D/R. Every power
-//! kernel has the same form: v^α has one coefficient, (4a)^α over 2α choose α. Perlin's kernel is no
-//! polynomial along a ray and is refused.
+//! kernel has the same form: v^α has one coefficient, (4a)^α over 2α choose α. A kernel that is no
+//! polynomial along a ray, as Perlin's or a spline of SPH, is refused.
 //!
 //! *Rectangles* of appendix B hold for spheres wholly in front of the eye's plane. Here tangents are
 //! turned directions, with cases for spheres that cross the plane, lie behind it or hold the eye

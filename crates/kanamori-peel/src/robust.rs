@@ -25,7 +25,7 @@
 //! be searched anyway.
 //!
 //! # Practice
-//! Any kernel, Perlin's too. Where the surface lies within 3e-6 of v = 1 − r²/R² of the rims of supports,
+//! Any kernel. Where the surface lies within 3e-6 of v = 1 − r²/R² of the rims of supports,
 //! as with the quartic at thresholds below 1e-11 of the strengths, rays are undecided. At most
 //! [`INTERVAL_CAPACITY`] balls may reach one interval of a ray, and [`TILE_CAPACITY`] be over one tile of
 //! 16 × 16 pixels: beyond that the frame is refused with the numbers. 24 bytes a pixel, 8 for each entry
