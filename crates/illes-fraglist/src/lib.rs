@@ -52,9 +52,10 @@
 //! # Practice
 //! The published cubic is not the kernel. In parts of a ball's value at the midpoint of its chord the
 //! kernel is above the cubic by 0 to 0.0625 for the quartic, −0.0902 to 0 for α = 3, −0.0128 to
-//! 0.0625 for Wyvill's, −0.0902 to 0.0537 for Perlin's ([`cubic_deviation`]). [`Piece::Exact`] and
-//! [`Piece::Robust`] are within rounding, for kernels that are polynomials of degree up to six along
-//! a ray; other kernels they refuse.
+//! 0.0625 for Wyvill's, −0.0902 to 0.0537 for Perlin's, −0.25 to 0 for the cubic spline of SPH, −0.48 to
+//! 0 for Wendland's C⁶, and by up to 0.296 where a Gaussian's slope jumps ([`cubic_deviation`]).
+//! [`Piece::Exact`] and [`Piece::Robust`] are within rounding, for kernels that are polynomials of degree
+//! up to six along a ray; other kernels they refuse.
 //!
 //! Where more separators are active than the array holds ([`Options::array_capacity`]) the published
 //! method passes some that are not safe; such pixels are marked as fallback.
