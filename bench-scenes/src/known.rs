@@ -134,7 +134,7 @@ const KNOWN: &[KnownScene] = &[
     ),
     small(
         "two-gaussian",
-        "Two balls with one surface, a Gaussian that is cut at two standard deviations.",
+        "Two balls with one surface, a Gaussian that is cut at three standard deviations.",
         Small(small::two_gaussian),
     ),
     small("two-merging", "Two balls with one surface.", Small(small::two_merging)),

@@ -45,7 +45,7 @@ pub(crate) fn two(kernel: Kernel) -> Result<Shot, LoadError> {
 }
 
 pub(crate) fn two_gaussian() -> Result<Shot, LoadError> {
-    two(Kernel::gaussian(2.0)?)
+    two(Kernel::gaussian(3.0)?)
 }
 
 pub(crate) fn fifteen_coincident() -> Result<Shot, LoadError> {
