@@ -30,10 +30,12 @@ const RUNNING_CUBICS: &[Limit] = &[
     ("background", &[(10.0, SilentlyWrong), (100.0, Right), (1e3, Broken)]),
     ("strength", &[(1.0, SilentlyWrong), (10.0, Right)]),
     ("exponent", &[(1.0, SilentlyWrong)]),
+    ("cut", &[(1.0, SilentlyWrong)]),
     ("threshold-near-maximum", &[(1e-5, SilentlyWrong), (1e-6, Right)]),
     ("grazing", &[(1e-2, SilentlyWrong), (1e-3, Right), (1e-5, SilentlyWrong), (1e-6, Right)]),
     ("neck", &[(0.1, SilentlyWrong), (-0.1, Right), (1e-3, SilentlyWrong)]),
     ("sheet", &[(0.1, SilentlyWrong)]),
+    ("kink", &[(1e-3, SilentlyWrong), (0.0, Right)]),
     ("effective-radii", &[(0.8, SilentlyWrong), (1.0, Right), (1.25, SilentlyWrong)]),
     ("wide-lens", &[(38.0, SilentlyWrong), (120.0, Right), (150.0, SilentlyWrong), (170.0, Right)]),
     ("narrow-lens", &[(38.0, SilentlyWrong), (1.0, Right)]),
@@ -57,6 +59,7 @@ const CUBICS: &[Limit] = &[
     ("background", &[(10.0, SilentlyWrong), (100.0, Right)]),
     ("strength", &[(1.0, SilentlyWrong), (10.0, Right)]),
     ("exponent", &[(1.0, SilentlyWrong)]),
+    ("cut", &[(1.0, SilentlyWrong)]),
     ("neck", &[(0.1, SilentlyWrong), (-0.1, Right), (1e-3, SilentlyWrong)]),
     ("sheet", &[(0.1, SilentlyWrong)]),
     ("effective-radii", &[(0.8, SilentlyWrong), (1.0, Right), (1.5, SilentlyWrong)]),
@@ -79,6 +82,8 @@ const PEELING: &[Limit] = &[
     ("concentric", &[(65.0, Reported)]),
     ("common-entry", &[(2.0, SilentlyWrong)]),
     ("distance", &[(1e4, Coarse), (1e6, Broken)]),
+    ("cut", &[(1.0, Reported)]),
+    ("kink", &[(0.1, Reported)]),
 ];
 
 /// The limits of each configuration, by case. An outcome holds to the end of the case's values or to the
@@ -136,7 +141,14 @@ const LIMITS: &[(&str, &[Limit])] = &[
     ),
     // f64 all the way, but for the t that is handed out.
     ("fbvh-certified-cpu", &[("distance", &[(1e5, Coarse)])]),
-    ("kanamori-cpu", &[("distance", &[(1e5, Coarse)])]),
+    (
+        "kanamori-cpu",
+        &[
+            ("distance", &[(1e5, Coarse)]),
+            ("cut", &[(1.0, Reported)]),
+            ("kink", &[(0.1, Reported)]),
+        ],
+    ),
     ("illes", RUNNING_CUBICS),
     ("illes-rebuilt", CUBICS),
     // Degree six at most, and the same array; an f32 distance from afar.
@@ -149,6 +161,8 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("common-entry", &[(33.0, Reported)]),
             ("distance", &[(3e4, Coarse), (1e6, Broken)]),
             ("exponent", &[(4.0, Reported)]),
+            ("cut", &[(1.0, Reported)]),
+            ("kink", &[(0.1, Reported)]),
         ],
     ),
     // An array for ten balls.
@@ -161,6 +175,8 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("common-entry", &[(13.0, Reported)]),
             ("distance", &[(3e4, Coarse), (1e6, Broken)]),
             ("exponent", &[(4.0, Reported)]),
+            ("cut", &[(1.0, Reported)]),
+            ("kink", &[(0.1, Reported)]),
             ("effective-radii", &[(3.0, Reported)]),
             ("redrawn", &[(1000.0, Reported)]),
             ("shuffled", &[(1000.0, Reported)]),
@@ -169,7 +185,12 @@ const LIMITS: &[(&str, &[Limit])] = &[
     // Degree six at most; from 10⁶ radii away, an f32 distance is no better than a wrong front.
     (
         "illes-robust",
-        &[("distance", &[(3e4, Coarse), (1e6, Broken)]), ("exponent", &[(4.0, Reported)])],
+        &[
+            ("distance", &[(3e4, Coarse), (1e6, Broken)]),
+            ("exponent", &[(4.0, Reported)]),
+            ("cut", &[(1.0, Reported)]),
+            ("kink", &[(0.1, Reported)]),
+        ],
     ),
     ("illes-compute", RUNNING_CUBICS),
 ];
