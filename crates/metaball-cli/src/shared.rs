@@ -29,8 +29,9 @@ impl PictureArgs {
 /// What is changed about a scene's field.
 #[derive(Debug, Args)]
 pub(crate) struct FieldArgs {
-    /// Kernel instead of the scene's own: power-1 to power-8, wyvill, perlin, cubic-spline, quintic-spline,
-    /// wendland-c2, wendland-c4, wendland-c6, or gaussian-1 to gaussian-6 with the cut in standard deviations.
+    /// Kernel instead of the scene's own: power (power-1 to power-8), wyvill, perlin, cubic-spline,
+    /// quintic-spline, wendland-c2, wendland-c4, wendland-c6, or gaussian-3 with its cut in standard
+    /// deviations.
     #[arg(long, value_name = "NAME", value_parser = values::kernel)]
     kernel: Option<Kernel>,
     /// Exponent of a power kernel, 1 to 8.

@@ -1,8 +1,9 @@
 //! What replaces a scene's own kernel, threshold and colours.
 
-use metaball_core::{Color, Kernel, Scene};
+use metaball_core::{Color, Kernel, KernelNameError, Scene};
 
 use crate::error::LoadError;
+use crate::options::parameter;
 
 /// What replaces a scene's own choices; `None` keeps them. Support radii stay as they are.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -18,16 +19,24 @@ pub struct Overrides {
 }
 
 impl Overrides {
+    /// The kernel that replaces a scene's own, which is the same where nothing does.
+    ///
+    /// # Errors
+    /// When kernel and exponent do not go together.
+    pub(crate) fn kernel_for(&self, own: Kernel) -> Result<Kernel, LoadError> {
+        match (self.kernel.unwrap_or(own), self.exponent) {
+            (kernel, None) => Ok(kernel),
+            (Kernel::Power(_), Some(exponent)) => kernel_named("power", Some(exponent)),
+            (kernel, exponent) => kernel_named(&kernel.to_string(), exponent),
+        }
+    }
+
     /// The scene with its own choices replaced.
     ///
     /// # Errors
     /// When kernel and exponent do not go together, or the threshold is not a finite number above 0.
     pub fn apply(&self, scene: Scene) -> Result<Scene, LoadError> {
-        let kernel = self.kernel.unwrap_or(scene.kernel());
-        let kernel = match (kernel, self.exponent) {
-            (Kernel::Power(_), Some(exponent)) => kernel_named("power", Some(exponent))?,
-            (_, exponent) => kernel_named(&kernel.to_string(), exponent)?,
-        };
+        let kernel = self.kernel_for(scene.kernel())?;
         let threshold = self.threshold.unwrap_or(scene.threshold());
         let count = scene.len();
         let scene = scene.with_kernel(kernel).with_threshold(threshold)?;
@@ -38,36 +47,23 @@ impl Overrides {
     }
 }
 
-/// The kernel of a name in scene files and commands: `power` (with an exponent, else 2), `power-1` to
-/// `power-8`, `wyvill`, `perlin`.
+/// The kernel of a name in scene files and commands, one of [`Kernel::NAMES`]; `power` and `quartic` may
+/// have an exponent beside them.
 ///
 /// # Errors
 /// When there is no such kernel, or it does not go with the exponent.
 pub fn kernel_named(name: &str, exponent: Option<i64>) -> Result<Kernel, LoadError> {
-    let parameter = |name: &str, needed: &str, found: String| LoadError::Parameter {
-        name: name.to_owned(),
-        needed: needed.to_owned(),
-        found,
-    };
-    let named = match name {
-        "power" => Some(Kernel::QUARTIC),
-        _ => Kernel::all().find(|kernel| kernel.to_string() == name),
-    };
-    match (named, exponent) {
-        (Some(Kernel::Power(own)), Some(exponent))
-            if name == "power" || i64::from(own.get()) == exponent =>
-        {
+    let kernel: Kernel = name.parse().map_err(|error: KernelNameError| {
+        parameter("kernel", Kernel::NAMES, format_args!("{:?}", error.found))
+    })?;
+    let is_open = matches!(name, "power" | "quartic");
+    match (kernel, exponent) {
+        (kernel, None) => Ok(kernel),
+        (Kernel::Power(own), Some(exponent)) if is_open || i64::from(own.get()) == exponent => {
             Kernel::power(exponent).map_err(|error| {
-                parameter("kernel exponent", "an integer from 1 to 8", error.found.to_string())
+                parameter("kernel exponent", "an integer from 1 to 8", error.found)
             })
         }
-        (Some(_), Some(_)) => {
-            Err(parameter("kernel exponent", "the kernel power", format!("{name:?}")))
-        }
-        (Some(kernel), None) => Ok(kernel),
-        (None, _) => {
-            let needed = "power, power-1 to power-8, wyvill or perlin";
-            Err(parameter("kernel", needed, format!("{name:?}")))
-        }
+        _ => Err(parameter("kernel exponent", "the kernel power", format_args!("{name:?}"))),
     }
 }

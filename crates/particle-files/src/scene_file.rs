@@ -207,6 +207,8 @@ vertical_fov_degrees = 40
         assert_eq!((file.kernel, file.threshold, file.camera), (Kernel::QUARTIC, 0.25, None));
         let wyvill = parse("particles = 'a.xyz'\nkernel = 'wyvill'").expect("legal");
         assert_eq!(wyvill.kernel, Kernel::Wyvill);
+        let gaussian = parse("particles = 'a.xyz'\nkernel = 'gaussian-2.5'").expect("legal");
+        assert_eq!(gaussian.kernel, Kernel::gaussian(2.5).expect("legal"));
         assert!(refusal("kernel = 'wyvill'").contains("missing field `particles`"));
     }
 
@@ -223,8 +225,10 @@ vertical_fov_degrees = 40
         );
         assert_eq!(
             with("\"power\"", "\"gauss\""),
-            "a.toml, line 3, column 10 (kernel): kernel: needed power, power-1 to power-8, wyvill \
-             or perlin, found \"gauss\""
+            format!(
+                "a.toml, line 3, column 10 (kernel): kernel: needed {}, found \"gauss\"",
+                Kernel::NAMES
+            )
         );
         assert_eq!(
             with("exponent = 3", "exponent = 9"),
