@@ -8,6 +8,7 @@ mod clip;
 mod convert;
 mod display;
 mod draw;
+mod formula;
 mod light;
 mod list;
 mod measure;
@@ -183,7 +184,9 @@ mod tests {
         assert!(message("metaball compare --size 0x480").contains("WIDTHxHEIGHT"));
         assert!(message("metaball compare --frames 0").contains("--frames"));
         assert!(message("metaball render molecule --picture nosuch").contains("work:"));
-        assert!(message("metaball compare --kernel gauss").contains("wyvill, perlin, cubic-spline"));
+        assert!(
+            message("metaball compare --kernel gauss").contains("wyvill, perlin, cubic-spline")
+        );
         assert!(message("metaball stability --cases nosuch").contains("grazing"));
         assert!(message("metaball animate splash --frames 5..5").contains("FIRST..END"));
         assert!(message("metaball animate splash --out frame.png").contains("frame-%04d.png"));

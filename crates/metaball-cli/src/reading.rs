@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use particle_files::{ColorBy, ReadOptions, Rule, Selection, Substance, Unit};
 
+use crate::formula::FormulaArgs;
+
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Reading a file (what was read and guessed is said)")]
 pub(crate) struct ReadingArgs {
@@ -35,6 +37,8 @@ pub(crate) struct ReadingArgs {
     /// Show particles far from the others too.
     #[arg(long)]
     frame_all: bool,
+    #[command(flatten)]
+    formula: FormulaArgs,
 }
 
 /// Which particles of a file are read.
@@ -71,6 +75,7 @@ impl ReadingArgs {
             radius: self.radius,
             support_radius: self.support_radius,
             radius_scale: self.radius_scale,
+            formula: self.formula.options(),
             color_by: self.color_by.clone(),
             repeat: self.repeat,
             periodic: self.periodic,

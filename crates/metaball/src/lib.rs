@@ -70,8 +70,9 @@ pub use metaball_core::{
 pub use method::Choosing;
 pub use method::Method;
 pub use particle_files::{
-    AnimatedScene, BoxError, Cell, ColorBy, Legend, Loaded, Note, NoteKind, Notes, NumberedPath,
-    Overrides, ReadOptions, Rule, Scale, Selection, Sequence, Substance, Unit, inputs, load,
+    AnimatedScene, BoxError, Cell, ColorBy, Formula, FormulaOptions, Legend, Loaded, Note,
+    NoteKind, Notes, NumberedPath, Overrides, Preset, ReadOptions, Rule, Scale, Selection,
+    Sequence, Substance, Unit, inputs, load,
 };
 pub use summary::{Progress, Stage, Summary, Tally};
 pub use viewpoint::Viewpoint;

@@ -5,31 +5,35 @@ use metaball_core::Color;
 use crate::coloring;
 use crate::elements::{Element, element_of_label, is_ghost};
 use crate::error::Flaw;
+use crate::formula::Formula;
 use crate::notes::{Notes, counted};
 use crate::options::{ReadOptions, Substance};
-use crate::particles::{Particles, Sizes};
+use crate::particles::Particles;
 use crate::roles::Role;
+use crate::sizes::Sizing;
 use crate::spacing::median_spacing;
 use crate::table::{Column, Table, Values};
 use crate::units::Unit;
 
-/// The radius of an atom of no known element, ångströms.
-const UNKNOWN_ATOM: f32 = 2.0;
-
-/// The particles of a frame.
+/// The particles of a frame, whose field a formula may make.
 pub(crate) fn particles(
     table: Table,
     options: &ReadOptions,
+    formula: Option<Formula>,
     mut notes: Notes,
 ) -> Result<Particles, Flaw> {
     let table = options.selection.of(table, &mut notes)?;
     let mut table = without_ghosts(table, options, &mut notes);
-    let elements = elements_of(&table);
+    let elements = elements_of(&table.columns);
     let spacing = std::cell::OnceCell::new();
-    let mut spaced = |table: &Table| *spacing.get_or_init(|| median_spacing(&table.positions));
+    let spaced = |table: &Table| *spacing.get_or_init(|| median_spacing(&table.positions));
     let unit = options.units.or(table.unit);
     let to_angstroms = unit.map_or(1.0, Unit::angstroms);
-    let substance = substance(&table, &elements, options, to_angstroms, &mut spaced, &mut notes)?;
+    let is_fluid = options.substance.is_none() && formula.is_some_and(Formula::is_of_fluids);
+    let substance = match is_fluid {
+        true => Substance::Particles,
+        false => substance(&table, &elements, options, to_angstroms, &spaced, &mut notes)?,
+    };
     let mut scale = 1.0;
     if substance == Substance::Molecule && to_angstroms != 1.0 {
         scale = to_angstroms;
@@ -37,10 +41,11 @@ pub(crate) fn particles(
         table.positions.iter_mut().for_each(|position| *position *= scale);
         table.cell = table.cell.map(|cell| cell.scaled(scale));
     }
-    let spaced = |table: &Table| spaced(table).map(|spacing| spacing * scale);
-    let sizes = sizes(&table, &elements, substance, options, scale, spaced, &mut notes)?;
+    let spaced = || spaced(&table).map(|spacing| spacing * scale);
+    let sizing = Sizing { table: &table, elements: &elements, substance, options, formula, scale };
+    let sizes = sizing.sizes(spaced, &mut notes)?;
     let strengths =
-        numbers(&table, Role::Strength).map(|(_, q)| q.iter().map(|q| *q as f32).collect());
+        numbers(&table.columns, Role::Strength).map(|(_, q)| q.iter().map(|q| *q as f32).collect());
     let (mut colors, legend) = match &options.color_by {
         Some(by) => {
             let (colors, legend) = coloring::colors(&table, by, &mut notes)?;
@@ -72,13 +77,13 @@ pub(crate) fn particles(
 }
 
 /// The first column of a role.
-pub(crate) fn column_of(table: &Table, role: Role) -> Option<&Column> {
-    table.columns.iter().find(|column| Role::of(&column.name) == Some(role))
+pub(crate) fn column_of(columns: &[Column], role: Role) -> Option<&Column> {
+    columns.iter().find(|column| Role::of(&column.name) == Some(role))
 }
 
 /// The first column of a role, if it is one of numbers.
-fn numbers(table: &Table, role: Role) -> Option<(&str, &[f64])> {
-    match column_of(table, role)? {
+pub(crate) fn numbers(columns: &[Column], role: Role) -> Option<(&str, &[f64])> {
+    match column_of(columns, role)? {
         Column { name, values: Values::Numbers(numbers) } => Some((name, numbers)),
         _ => None,
     }
@@ -86,7 +91,8 @@ fn numbers(table: &Table, role: Role) -> Option<(&str, &[f64])> {
 
 /// The particles without ghosts, if all others are elements.
 fn without_ghosts(table: Table, options: &ReadOptions, notes: &mut Notes) -> Table {
-    let Some(Values::Words(words)) = column_of(&table, Role::Element).map(|column| &column.values)
+    let Some(Values::Words(words)) =
+        column_of(&table.columns, Role::Element).map(|column| &column.values)
     else {
         return table;
     };
@@ -107,8 +113,8 @@ fn without_ghosts(table: Table, options: &ReadOptions, notes: &mut Notes) -> Tab
 }
 
 /// The element of each particle, by the column of elements; empty where there is none.
-fn elements_of(table: &Table) -> Vec<Option<Element>> {
-    match column_of(table, Role::Element).map(|column| &column.values) {
+pub(crate) fn elements_of(columns: &[Column]) -> Vec<Option<Element>> {
+    match column_of(columns, Role::Element).map(|column| &column.values) {
         Some(Values::Words(words)) => {
             let each: Vec<_> =
                 words.different().iter().map(|word| element_of_label(word)).collect();
@@ -124,7 +130,8 @@ fn elements_of(table: &Table) -> Vec<Option<Element>> {
 
 /// Whether the words for elements are the numbers from 1 on that simulation programs give their types.
 fn are_types(table: &Table) -> bool {
-    let Some(Values::Words(words)) = column_of(table, Role::Element).map(|column| &column.values)
+    let Some(Values::Words(words)) =
+        column_of(&table.columns, Role::Element).map(|column| &column.values)
     else {
         return false;
     };
@@ -142,7 +149,7 @@ fn substance(
     elements: &[Option<Element>],
     options: &ReadOptions,
     to_angstroms: f64,
-    spacing: &mut impl FnMut(&Table) -> Option<f64>,
+    spacing: &impl Fn(&Table) -> Option<f64>,
     notes: &mut Notes,
 ) -> Result<Substance, Flaw> {
     let unknown = elements.iter().position(Option::is_none);
@@ -152,7 +159,7 @@ fn substance(
             && !table.atoms
         {
             let line = unknown.and_then(|index| table.lines.get(index));
-            let found = match (column_of(table, Role::Element), unknown) {
+            let found = match (column_of(&table.columns, Role::Element), unknown) {
                 (Some(column), Some(index)) => format!("{:?}", column.values.text(index)),
                 _ => "none".to_owned(),
             };
@@ -176,7 +183,7 @@ fn substance(
         return Ok(Substance::Particles);
     }
     if elements.is_empty() || unknown.is_some() {
-        if let (Some(index), Some(column)) = (unknown, column_of(table, Role::Element)) {
+        if let (Some(index), Some(column)) = (unknown, column_of(&table.columns, Role::Element)) {
             notes.guessed(format!(
                 "taken as particles: {:?} is no element (--as molecule needs elements)",
                 column.values.text(index)
@@ -214,94 +221,9 @@ fn are_apart(elements: &[Option<Element>], spacing: f64) -> bool {
     spacing > 0.4 * radii.sum::<f64>() / elements.len() as f64
 }
 
-/// How large the particles are: what the options say, or a column, or elements, or their spacing.
-fn sizes(
-    table: &Table,
-    elements: &[Option<Element>],
-    substance: Substance,
-    options: &ReadOptions,
-    scale: f64,
-    spacing: impl Fn(&Table) -> Option<f64>,
-    notes: &mut Notes,
-) -> Result<Sizes, Flaw> {
-    let factor = options.radius_scale.unwrap_or(1.0);
-    let count = table.len();
-    let scaled = |values: &[f64], more: f64| -> Vec<f32> {
-        let factor = more * scale * f64::from(factor);
-        values.iter().map(|value| (factor * value) as f32).collect()
-    };
-    if let Some(radius) = options.support_radius {
-        notes.read(format!("support radius {radius} as asked for"));
-        return Ok(Sizes::Support(vec![radius * scale as f32 * factor; count]));
-    }
-    if let Some(radius) = options.radius {
-        notes.read(format!("radius {radius} as asked for: each alone shows at it"));
-        return Ok(Sizes::Shown(vec![radius * scale as f32 * factor; count]));
-    }
-    if let Some((name, radii)) = numbers(table, Role::SupportRadius) {
-        notes.read(format!("support radii from the column {name:?}"));
-        return positive(table, name, radii).map(|()| Sizes::Support(scaled(radii, 1.0)));
-    }
-    for (role, part) in [(Role::Radius, 1.0), (Role::Diameter, 0.5)] {
-        if let Some((name, radii)) = numbers(table, role) {
-            let half = if part == 0.5 { ", halved" } else { "" };
-            notes.read(format!(
-                "radii from the column {name:?}{half}: each alone shows at its radius (support_radius \
-                 would be where its kernel ends)"
-            ));
-            return positive(table, name, radii).map(|()| Sizes::Shown(scaled(radii, part)));
-        }
-    }
-    if substance == Substance::Molecule {
-        notes.read("van der Waals radii of the elements (Alvarez 2013)");
-        let unknown = elements.iter().filter(|element| element.is_none()).count();
-        if unknown > 0 {
-            let atoms = counted(unknown, "atom");
-            notes.guessed(format!(
-                "{atoms} of no known element: radius {UNKNOWN_ATOM} Å (--radius says another)"
-            ));
-        }
-        let radius = |element: &Option<Element>| {
-            factor * element.map_or(UNKNOWN_ATOM, Element::van_der_waals_radius)
-        };
-        return Ok(Sizes::Shown(elements.iter().map(radius).collect()));
-    }
-    let radius = match spacing(table) {
-        Some(spacing) => {
-            let radius = (2.0 * spacing) as f32 * factor;
-            notes.guessed(format!(
-                "support radius {radius} of all: twice the median distance between neighbours (--radius or \
-                 --support-radius says another)"
-            ));
-            radius
-        }
-        None => {
-            if count > 0 {
-                notes.guessed(
-                    "support radius 1: there is no distance to go by (--radius says another)",
-                );
-            }
-            factor
-        }
-    };
-    Ok(Sizes::Spacing(radius))
-}
-
-/// Refuses the first that is not above 0.
-fn positive(table: &Table, name: &str, values: &[f64]) -> Result<(), Flaw> {
-    match values.iter().position(|value| !(value.is_finite() && *value > 0.0)) {
-        None => Ok(()),
-        Some(index) => {
-            let mut flaw = Flaw::needed("a finite number above 0", values[index]).at_key(name);
-            flaw.location.line = table.lines.get(index);
-            Err(flaw)
-        }
-    }
-}
-
 /// The colours of columns red, green and blue: sRGB-encoded, from 0 to 1, or from 0 to 255.
 fn colors_of_columns(table: &Table, notes: &mut Notes) -> Result<Option<Vec<Color>>, Flaw> {
-    let channels = [Role::Red, Role::Green, Role::Blue].map(|role| numbers(table, role));
+    let channels = [Role::Red, Role::Green, Role::Blue].map(|role| numbers(&table.columns, role));
     let [Some(red), Some(green), Some(blue)] = channels else {
         let missing = channels.iter().position(Option::is_none);
         return match (channels.iter().any(Option::is_some), missing) {

@@ -41,6 +41,7 @@
 
 mod animated_scene;
 mod atom_names;
+mod atom_radii;
 mod binary;
 mod cell;
 mod coloring;
@@ -49,6 +50,7 @@ mod elements;
 mod error;
 mod file;
 mod formats;
+mod formula;
 mod framing;
 mod inputs;
 mod interpret;
@@ -67,7 +69,10 @@ mod rows;
 mod scene_file;
 mod select;
 mod sequence;
+mod sizes;
+mod smoothing_length;
 mod spacing;
+mod surface;
 mod table;
 mod text;
 mod units;
@@ -80,6 +85,9 @@ pub use coloring::{ColorBy, Legend, Scale};
 pub use convert::{ConvertError, convert};
 pub use error::{LoadError, Location};
 pub use formats::{Format, PackedFrames, pack_balls, pack_frames};
+pub use formula::{
+    ByFormula, Formula, FormulaOptions, GaussianSurface, Molmap, Preset, QuickSurf, Sph, Splashsurf,
+};
 pub use framing::framing;
 pub use inputs::inputs;
 pub use load::{Loaded, load};

@@ -10,13 +10,14 @@ use crate::coloring::Legend;
 use crate::error::{Flaw, LoadError};
 use crate::file::{self, named};
 use crate::formats::PackedFrames;
+use crate::formula::FormulaOptions;
 use crate::framing::{FRONT, framed, framing};
 use crate::notes::Notes;
 use crate::options::ReadOptions;
 use crate::overrides::Overrides;
-use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD};
 use crate::read::read;
 use crate::scene_file::{SceneCamera, SceneFile};
+use crate::surface::Surface;
 
 /// What was loaded from a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,10 +52,11 @@ pub fn load(
         let flaw = Flaw::needed("the particles of one scene", "those of many frames");
         return Err(flaw.in_file(&path.display().to_string()));
     }
+    let options = &source.options(options);
+    let surface = source.surface(options)?.overridden(overrides)?;
     let mut particles = read(&source.particles, options)?;
-    let mut notes = std::mem::take(&mut particles.notes);
     let (cell, legend) = (particles.cell, particles.legend.take());
-    let scene = particles.into_scene(source.kernel, source.threshold)?;
+    let (scene, mut notes) = surface.scene(particles, None)?;
     if scene.origin() != DVec3::ZERO {
         notes.changed(format!(
             "coordinates begin at {}: f32 moves what is far from it",
@@ -71,21 +73,34 @@ pub fn load(
 }
 
 /// A particle file, and how its balls make a surface.
+#[derive(Default)]
 pub(crate) struct Source {
     pub(crate) particles: PathBuf,
-    pub(crate) kernel: Kernel,
-    pub(crate) threshold: f32,
     pub(crate) camera: Option<SceneCamera>,
+    kernel: Option<Kernel>,
+    threshold: Option<f32>,
+    formula: FormulaOptions,
 }
 
 impl Source {
-    /// The one that a scene file says; any other file under the default kernel and threshold.
+    /// The one that a scene file says; of any other file nothing but the particles.
     pub(crate) fn of(path: &Path) -> Result<Self, LoadError> {
         if file::ending(path).as_deref() == Some(SceneFile::ENDING) {
-            let SceneFile { particles, kernel, threshold, camera } = SceneFile::open(path)?;
-            return Ok(Self { particles, kernel, threshold, camera });
+            let SceneFile { particles, kernel, threshold, formula, camera } =
+                SceneFile::open(path)?;
+            return Ok(Self { particles, camera, kernel, threshold, formula });
         }
-        let (kernel, threshold) = (DEFAULT_KERNEL, DEFAULT_THRESHOLD);
-        Ok(Self { particles: path.to_owned(), kernel, threshold, camera: None })
+        Ok(Self { particles: path.to_owned(), ..Self::default() })
+    }
+
+    /// How its particles are read, where the options do not say otherwise.
+    pub(crate) fn options(&self, options: &ReadOptions) -> ReadOptions {
+        ReadOptions { formula: options.formula.or(&self.formula), ..options.clone() }
+    }
+
+    /// How its particles make a surface under these options.
+    pub(crate) fn surface(&self, options: &ReadOptions) -> Result<Surface, LoadError> {
+        let formula = options.formula.formula()?;
+        Ok(Surface { kernel: self.kernel, threshold: self.threshold, formula })
     }
 }

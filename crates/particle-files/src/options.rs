@@ -7,6 +7,7 @@ use std::str::FromStr;
 use crate::coloring::ColorBy;
 use crate::error::LoadError;
 use crate::formats::{Request, Wanted};
+use crate::formula::FormulaOptions;
 use crate::select::Selection;
 use crate::units::Unit;
 
@@ -33,6 +34,8 @@ pub struct ReadOptions {
     pub topology: Option<PathBuf>,
     /// Which particles are kept.
     pub selection: Selection,
+    /// The formula that makes a field of what the file says, if another than radii say.
+    pub formula: FormulaOptions,
     /// What gives particles their colours.
     pub color_by: Option<ColorBy>,
     /// How often the periodic cell is drawn along each of its edges; once where this is `None`.
@@ -57,6 +60,7 @@ impl ReadOptions {
     pub(crate) fn request(&self) -> Request {
         let mut names = self.selection.columns();
         names.extend(self.color_by.as_ref().map(|by| by.name.clone()));
+        names.extend(self.formula.columns().iter().map(|name| (*name).to_owned()));
         Request { wanted: Wanted::Named(names), model: self.model, names: self.columns.clone() }
     }
 

@@ -10,6 +10,7 @@ use crate::error::{Flaw, LoadError};
 use crate::notes::Notes;
 use crate::origin::origin_of;
 use crate::periodic;
+use crate::smoothing_length::support_per_h;
 use crate::table::{Column, Lines};
 
 /// The kernel of files that name none: the quartic.
@@ -52,7 +53,9 @@ pub enum Sizes {
     Support(Vec<f32>),
     /// For each the radius at which it shows where it is alone: R follows from kernel, strength and T.
     Shown(Vec<f32>),
-    /// The support radius R of all, by their spacing.
+    /// The smoothing length h of each: R follows from the kernel, as its source has it.
+    Smoothing(Vec<f32>),
+    /// The support radius R of all, by their spacing: twice that.
     Spacing(f32),
 }
 
@@ -119,6 +122,11 @@ impl Particles {
         let shown = match &self.sizes {
             Sizes::Support(radii) => return Ok(Radii::Each(radii.into())),
             Sizes::Spacing(radius) => return Ok(Radii::All(*radius)),
+            Sizes::Smoothing(lengths) => {
+                let factor = support_per_h(kernel) as f32;
+                let radii: Vec<f32> = lengths.iter().map(|length| factor * length).collect();
+                return Ok(Radii::Each(radii.into()));
+            }
             Sizes::Shown(shown) => shown,
         };
         // R over the radius that shows, for one strength after the other: most are the same.
@@ -166,7 +174,7 @@ impl Particles {
     }
 
     /// The flaw of a particle.
-    fn flaw_at(&self, index: Option<usize>, mut flaw: Flaw) -> LoadError {
+    pub(crate) fn flaw_at(&self, index: Option<usize>, mut flaw: Flaw) -> LoadError {
         flaw.location.line = index.and_then(|index| self.lines.get(index));
         flaw.location.file = self.file.clone();
         flaw.into()

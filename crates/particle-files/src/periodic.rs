@@ -125,6 +125,7 @@ impl Particles {
         let sizes = match &self.sizes {
             Sizes::Support(radii) => Sizes::Support(floats(radii)),
             Sizes::Shown(radii) => Sizes::Shown(floats(radii)),
+            Sizes::Smoothing(lengths) => Sizes::Smoothing(floats(lengths)),
             Sizes::Spacing(radius) => Sizes::Spacing(*radius),
         };
         Self {

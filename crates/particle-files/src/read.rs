@@ -87,11 +87,13 @@ impl<'a> Content<'a> {
     /// The particles of the frame that is asked for.
     pub(crate) fn particles(&self, options: &ReadOptions) -> Result<Particles, LoadError> {
         options.check()?;
+        let formula = options.formula.formula()?;
         let mut notes = self.notes_of_frame(options)?;
         let table = self.joined_table(&options.request(), options, &mut notes)?;
         notes.read(table.counted());
         let in_file = |flaw: Flaw| flaw.in_file(&self.file);
-        let particles = interpret::particles(table, options, notes).map_err(in_file)?;
+        let particles = interpret::particles(table, options, formula, notes);
+        let particles = particles.map_err(in_file)?;
         let particles = periodic::repeated(particles, options).map_err(in_file)?;
         Ok(Particles { file: Some(self.file.clone()), ..particles })
     }

@@ -10,8 +10,8 @@ use toml::Spanned;
 
 use crate::error::{Flaw, LoadError, Location};
 use crate::file;
+use crate::formula::FormulaOptions;
 use crate::overrides::kernel_named;
-use crate::particles::DEFAULT_THRESHOLD;
 use crate::text::utf8;
 
 /// What a scene file says.
@@ -19,8 +19,11 @@ use crate::text::utf8;
 pub(crate) struct SceneFile {
     /// Path of the particle file: as written, or from where the scene file is once that is known.
     pub(crate) particles: PathBuf,
-    pub(crate) kernel: Kernel,
-    pub(crate) threshold: f32,
+    /// `None` for the default, or the formula's.
+    pub(crate) kernel: Option<Kernel>,
+    /// `None` for the default, or the formula's.
+    pub(crate) threshold: Option<f32>,
+    pub(crate) formula: FormulaOptions,
     /// `None` for one that frames the particles.
     pub(crate) camera: Option<SceneCamera>,
 }
@@ -75,6 +78,15 @@ struct Keys {
     kernel: Option<Spanned<String>>,
     exponent: Option<Spanned<i64>>,
     threshold: Option<Spanned<f32>>,
+    #[serde(default)]
+    sph: bool,
+    preset: Option<Spanned<String>>,
+    support_per_h: Option<f64>,
+    particle_mass: Option<f64>,
+    resolution: Option<f64>,
+    radius_offset: Option<f64>,
+    smoothness: Option<f64>,
+    smoothing_length: Option<f64>,
     camera: Option<Spanned<CameraKeys>>,
 }
 
@@ -116,27 +128,51 @@ fn parse(text: &str) -> Result<SceneFile, Flaw> {
             let flaw = Flaw::needed("a finite number above 0", value.get_ref());
             return Err(at(flaw.at_key("threshold"), text, value.span().start));
         }
-        Some(value) => *value.get_ref(),
-        None => DEFAULT_THRESHOLD,
+        value => value.as_ref().map(|value| *value.get_ref()),
     };
     Ok(SceneFile {
         kernel: kernel(&keys, text)?,
         threshold,
+        formula: formula(&keys, text)?,
         camera: keys.camera.as_ref().map(|camera| camera_of(camera, text)).transpose()?,
         particles: keys.particles.into(),
     })
 }
 
-fn kernel(keys: &Keys, text: &str) -> Result<Kernel, Flaw> {
+fn kernel(keys: &Keys, text: &str) -> Result<Option<Kernel>, Flaw> {
     let flaw = |error: &LoadError, key: &str, byte: usize| {
         at(Flaw::new(error.to_string()).at_key(key), text, byte)
     };
-    let (name, byte) =
-        keys.kernel.as_ref().map_or(("power", 0), |name| (name.get_ref(), name.span().start));
-    let kernel = kernel_named(name, None).map_err(|error| flaw(&error, "kernel", byte))?;
-    let Some(exponent) = &keys.exponent else { return Ok(kernel) };
+    let name = keys.kernel.as_ref();
+    let own = name.map(|name| {
+        let start = name.span().start;
+        kernel_named(name.get_ref(), None).map_err(|error| flaw(&error, "kernel", start))
+    });
+    let own = own.transpose()?;
+    let Some(exponent) = &keys.exponent else { return Ok(own) };
+    let name = name.map_or("power", |name| name.get_ref());
     kernel_named(name, Some(*exponent.get_ref()))
+        .map(Some)
         .map_err(|error| flaw(&error, "exponent", exponent.span().start))
+}
+
+fn formula(keys: &Keys, text: &str) -> Result<FormulaOptions, Flaw> {
+    let flaw = |error: LoadError| Flaw::new(error.to_string());
+    let preset = keys.preset.as_ref().map(|name| {
+        let flaw = |error| at(flaw(error).at_key("preset"), text, name.span().start);
+        name.get_ref().parse().map_err(flaw)
+    });
+    let options = FormulaOptions {
+        sph: keys.sph,
+        preset: preset.transpose()?,
+        support_per_h: keys.support_per_h,
+        particle_mass: keys.particle_mass,
+        resolution: keys.resolution,
+        radius_offset: keys.radius_offset,
+        smoothness: keys.smoothness,
+        smoothing_length: keys.smoothing_length,
+    };
+    options.formula().map(|_| options).map_err(flaw)
 }
 
 fn camera_of(keys: &Spanned<CameraKeys>, text: &str) -> Result<SceneCamera, Flaw> {
@@ -194,7 +230,8 @@ vertical_fov_degrees = 40
     fn every_key_is_read() {
         let file = parse(FULL).expect("legal");
         assert_eq!(file.particles, Path::new("pool.csv"));
-        assert_eq!((file.kernel, file.threshold), (Kernel::power(3).expect("legal"), 0.2));
+        let cubic = Kernel::power(3).expect("legal");
+        assert_eq!((file.kernel, file.threshold), (Some(cubic), Some(0.2)));
         let camera = |eye, look_at| Camera::look_at(eye, look_at, Vec3::Y, 40.0).expect("legal");
         let at = |origin| file.camera.as_ref().expect("a camera").at(origin).expect("legal");
         assert_eq!(at(DVec3::ZERO), camera(Vec3::new(2.2, 1.7, 3.4), Vec3::ZERO));
@@ -204,12 +241,32 @@ vertical_fov_degrees = 40
     #[test]
     fn only_the_particles_are_required() {
         let file = parse("particles = 'a.xyz'").expect("legal");
-        assert_eq!((file.kernel, file.threshold, file.camera), (Kernel::QUARTIC, 0.25, None));
+        assert_eq!((file.kernel, file.threshold, file.camera), (None, None, None));
         let wyvill = parse("particles = 'a.xyz'\nkernel = 'wyvill'").expect("legal");
-        assert_eq!(wyvill.kernel, Kernel::Wyvill);
+        assert_eq!(wyvill.kernel, Some(Kernel::Wyvill));
         let gaussian = parse("particles = 'a.xyz'\nkernel = 'gaussian-2.5'").expect("legal");
-        assert_eq!(gaussian.kernel, Kernel::gaussian(2.5).expect("legal"));
+        assert_eq!(gaussian.kernel, Kernel::gaussian(2.5).ok());
         assert!(refusal("kernel = 'wyvill'").contains("missing field `particles`"));
+    }
+
+    #[test]
+    fn formulas_are_read() {
+        let text = "particles = 'a.pdb'\npreset = 'molmap'\nresolution = 3\nkernel = 'gaussian-4'";
+        let file = parse(text).expect("legal");
+        assert_eq!(file.formula.resolution, Some(3.0));
+        assert_eq!(file.kernel, Kernel::gaussian(4.0).ok());
+        let sph = parse("particles = 'a.vtu'\nsph = true\nsupport_per_h = 1").expect("legal");
+        assert!(sph.formula.sph && sph.formula.support_per_h == Some(1.0));
+        let unknown = refusal("particles = 'a.pdb'\npreset = 'vmd'");
+        assert!(
+            unknown.starts_with("a.toml, line 2, column 10 (preset): preset: needed quick"),
+            "{unknown}"
+        );
+        let other = refusal("particles = 'a.pdb'\npreset = 'quicksurf'\nsmoothness = 2.0");
+        assert_eq!(
+            other,
+            "a.toml: smoothness: needed the preset gaussian-surface, whose it is, found the preset quicksurf"
+        );
     }
 
     #[test]

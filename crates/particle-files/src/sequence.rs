@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use glam::DVec3;
-use metaball_core::{Aabb, Camera, Kernel, Scene};
+use metaball_core::{Aabb, Camera, Scene};
 
 use crate::animated_scene::{AnimatedScene, BoxError};
 use crate::cell::Cell;
@@ -17,8 +17,9 @@ use crate::notes::Notes;
 use crate::numbered_path::NumberedPath;
 use crate::options::{ReadOptions, parameter};
 use crate::overrides::Overrides;
-use crate::particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, Particles};
+use crate::particles::Particles;
 use crate::read::{Content, read};
+use crate::surface::Surface;
 
 /// The frames of files. They are independent of each other: any can be had, in any order and from any
 /// thread, and is the same each time as long as its file is.
@@ -48,8 +49,8 @@ enum Files {
 /// What all frames have in common.
 #[derive(Debug)]
 struct Common {
-    kernel: Kernel,
-    threshold: f32,
+    /// Where a formula finds a threshold, all frames have that of the first.
+    surface: Surface,
     /// Where files leave the radius to the particles' spacing, all frames have the same: a surface does
     /// not breathe, and shaders are made once.
     spacing_radius: Option<f32>,
@@ -86,24 +87,27 @@ impl Sequence {
             let frames = content.map_err(|flaw| flaw.in_file(&name))?;
             return Self::packed(&name, frames, overrides);
         }
-        let Source { particles, kernel, threshold, camera } = Source::of(path)?;
-        let files = Files::open(&particles, &name, options)?;
+        let source = Source::of(path)?;
+        let options = &source.options(options);
+        let surface = source.surface(options)?.overridden(overrides)?;
+        let files = Files::open(&source.particles, &name, options)?;
         let numbers = files.numbers()?;
         let (Some(first), Some(last)) = (numbers.first(), numbers.last()) else {
             return Err(parameter(&name, "at least one file of this name", "none"));
         };
         let mut readable = numbers.iter().map(|number| (number, files.particles(*number)));
-        let (number, mut particles) = match readable.find(|(_, particles)| particles.is_ok()) {
+        let (number, particles) = match readable.find(|(_, particles)| particles.is_ok()) {
             Some((number, particles)) => (number, particles?),
             None => (first, files.particles(*first)?),
         };
         let spacing_radius = particles.spacing_radius();
-        let mut common = Common { kernel, threshold, spacing_radius, origin: None };
-        let (cell, mut notes) = (particles.cell, std::mem::take(&mut particles.notes));
-        let scene = common.scene(particles)?;
+        let mut common = Common { surface, spacing_radius, origin: None };
+        let cell = particles.cell;
+        let (scene, mut notes) = common.scene_and_notes(particles)?;
         let origin = scene.origin();
         common.origin = Some(origin);
-        let camera = match camera {
+        common.surface.threshold = Some(scene.threshold());
+        let camera = match source.camera {
             Some(camera) => camera.at(origin).map_err(|flaw| flaw.in_file(&name))?,
             None => {
                 let mut bounds = |number_of: &u32| -> Result<Aabb, LoadError> {
@@ -134,12 +138,8 @@ impl Sequence {
         overrides: &Overrides,
     ) -> Result<Self, LoadError> {
         let range = 0..frames.count();
-        let common = Common {
-            kernel: DEFAULT_KERNEL,
-            threshold: DEFAULT_THRESHOLD,
-            spacing_radius: None,
-            origin: Some(DVec3::ZERO),
-        };
+        let common =
+            Common { surface: Surface::default(), spacing_radius: None, origin: Some(DVec3::ZERO) };
         let mut bounds = Aabb::EMPTY;
         for number in range.clone() {
             bounds = bounds.union(&common.scene(frames.frame(number))?.bounds());
@@ -279,10 +279,14 @@ impl Files {
 
 impl Common {
     fn scene(&self, particles: Particles) -> Result<Scene, LoadError> {
+        self.scene_and_notes(particles).map(|(scene, _)| scene)
+    }
+
+    fn scene_and_notes(&self, particles: Particles) -> Result<(Scene, Notes), LoadError> {
         let particles = match self.spacing_radius {
             Some(radius) => particles.respaced(radius),
             None => particles,
         };
-        particles.into_scene_at(self.origin, self.kernel, self.threshold)
+        self.surface.scene(particles, self.origin)
     }
 }
