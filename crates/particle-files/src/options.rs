@@ -7,7 +7,7 @@ use std::str::FromStr;
 use crate::coloring::ColorBy;
 use crate::error::LoadError;
 use crate::formats::{Request, Wanted};
-use crate::formula::FormulaOptions;
+use crate::formula::{Formula, FormulaOptions};
 use crate::select::Selection;
 use crate::units::Unit;
 
@@ -78,6 +78,10 @@ impl ReadOptions {
         }
         if self.radius.is_some() && self.support_radius.is_some() {
             return Err(parameter("radius", "a radius or a support radius", "both"));
+        }
+        let is_of_fluids = self.formula.formula()?.is_some_and(Formula::is_of_fluids);
+        if is_of_fluids && self.substance == Some(Substance::Molecule) {
+            return Err(parameter("as", "particles for sph and splashsurf", "molecule"));
         }
         match self.repeat {
             Some(repeat) if repeat.contains(&0) => {

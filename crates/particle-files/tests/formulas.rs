@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use glam::DVec3;
 use metaball_core::{Kernel, Scene};
 use particle_files::{
-    ByFormula, FormulaOptions, LoadError, Notes, Particles, Preset, ReadOptions, parse,
+    ByFormula, FormulaOptions, LoadError, Notes, Overrides, Particles, Preset, ReadOptions,
+    Sequence, Substance, load, parse,
 };
 
 /// Ethanol, and two atoms that other programs have other radii for.
@@ -293,6 +294,67 @@ fn volumes_know_neighbouring_cells() {
     assert!(open[0] > 1.5 * periodic[0] && (open[21] - periodic[21]).abs() < 0.2 * periodic[21]);
 }
 
+/// A file of that content in a folder for one test.
+fn write(folder: &str, name: &str, text: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(folder);
+    std::fs::create_dir_all(&folder).expect("the target folder is writable");
+    let file = folder.join(name);
+    std::fs::write(&file, text).expect("the target folder is writable");
+    file
+}
+
+/// A scene file names a formula, and options and overrides say otherwise: other balls then, not other kernels on
+/// the same.
+#[test]
+fn kernels_and_thresholds_of_formulas_are_replaced() {
+    write("formula-replaced", "a.xyz", MOLECULE);
+    let scene_file = "particles = 'a.xyz'\npreset = 'gaussian-surface'\nsmoothness = 2.0\n";
+    let scene_file = write("formula-replaced", "a.toml", scene_file);
+    // Kernel, hundredths of the support radius of carbon, threshold.
+    let radius = |formula: FormulaOptions, overrides: Overrides| {
+        let options = ReadOptions { formula, ..ReadOptions::default() };
+        let scene = load(&scene_file, &options, &overrides).expect("legal").scene;
+        (scene.kernel().to_string(), (100.0 * scene.ball(0).radius).round(), scene.threshold())
+    };
+    let own = radius(FormulaOptions::default(), Overrides::default());
+    let isovalue = |exponent: f64, cut: f64| ((-exponent).exp() - (-0.5 * cut * cut).exp()) as f32;
+    assert_eq!(own, ("gaussian-4".to_owned(), 340.0, isovalue(2.0, 4.0)));
+    let softer = FormulaOptions { smoothness: Some(0.5), ..FormulaOptions::default() };
+    let softer = radius(softer, Overrides::default());
+    assert_eq!(softer, ("gaussian-2".to_owned(), 340.0, isovalue(0.5, 2.0)));
+    let kernel = Kernel::gaussian(3.0).ok();
+    let nearer = radius(FormulaOptions::default(), Overrides { kernel, ..Overrides::default() });
+    assert_eq!(nearer, ("gaussian-3".to_owned(), 255.0, isovalue(2.0, 3.0)));
+    let lower = Overrides { threshold: Some(0.1), ..Overrides::default() };
+    assert_eq!(radius(FormulaOptions::default(), lower).2, 0.1);
+    let (kernel, of_vmd, _) = radius(by_preset(Preset::QuickSurf), Overrides::default());
+    assert_eq!((kernel.as_str(), of_vmd), ("gaussian-4", 680.0));
+
+    let options = ReadOptions::default();
+    let wyvill = Overrides { kernel: Some(Kernel::Wyvill), ..Overrides::default() };
+    let refused = load(&scene_file, &options, &wyvill).expect_err("refused").to_string();
+    assert!(refused.contains("needed a Gaussian for gaussian-surface"), "{refused}");
+}
+
+/// Frames of a sequence have one support radius by their spacing, and one threshold that a formula finds.
+#[test]
+fn frames_have_the_numbers_of_the_first() {
+    let frames = |resolution: Option<f64>, preset, sph| {
+        let formula = FormulaOptions { sph, preset, resolution, ..FormulaOptions::default() };
+        let options = ReadOptions { formula, ..ReadOptions::default() };
+        let files = write("formula-frames", "f%d.xyz", "");
+        let sequence = Sequence::open(&files, &options, &Overrides::default()).expect("legal");
+        [0, 1].map(|number| sequence.frame(number).expect("legal"))
+    };
+    write("formula-frames", "f0.xyz", MOLECULE);
+    write("formula-frames", "f1.xyz", &MOLECULE.replace("C 0.0072", "C 0.4072"));
+    let [first, second] = frames(Some(2.0), Some(Preset::Molmap), false);
+    assert_eq!(first.threshold(), second.threshold());
+    let [first, second] = frames(None, None, true);
+    assert_eq!(first.common_radius(), second.common_radius());
+    assert!(first.strengths() != second.strengths());
+}
+
 fn said(notes: &Notes) -> String {
     notes.iter().map(|note| format!("{note}\n")).collect()
 }
@@ -340,6 +402,13 @@ fn what_is_missing_is_named_with_a_way_out() {
         "a.csv, line 3, density: needed a finite number above 0, found -1; leave the particle out with \
          --drop"
     );
+    let options = ReadOptions {
+        formula: sph(),
+        substance: Some(Substance::Molecule),
+        ..ReadOptions::default()
+    };
+    let atoms = parse("a.xyz", MOLECULE.as_bytes(), &options).expect_err("refused").to_string();
+    assert_eq!(atoms, "as: needed particles for sph and splashsurf, found molecule");
     let particles = read("a.xyz", MOLECULE, by_preset(Preset::QuickSurf)).expect("legal");
     let other = applied(particles.clone(), by_preset(Preset::QuickSurf), Some(Kernel::Wyvill));
     assert!(other.expect_err("refused").to_string().contains("needed a Gaussian for quicksurf"));

@@ -87,8 +87,8 @@ impl Sph {
         let radii: Vec<f32> =
             own.iter().map(|radius| (2.0 * spacings * f64::from(*radius)) as f32).collect();
         notes.guessed(format!(
-            "sph: {kernel} of support radii R = {spacings:.3} spacings: {}, since the file has no smoothing \
-             lengths (--support-radius says R)",
+            "sph: {kernel} of support radii R = {spacings:.3} spacings: {}, since no smoothing lengths say R \
+             (--support-radius does)",
             range_in_words(&radii)
         ));
         Ok(radii)
