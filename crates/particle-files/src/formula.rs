@@ -147,6 +147,11 @@ impl Formula {
         matches!(self, Self::Sph(_))
     }
 
+    /// Whether how large its particles are has a part in it.
+    pub(crate) fn takes_sizes(self) -> bool {
+        !matches!(self, Self::Molmap(_))
+    }
+
     /// The radii of atoms under a formula or none.
     pub(crate) fn atom_radii(formula: Option<Self>) -> AtomRadii {
         match formula {

@@ -79,8 +79,14 @@ impl ReadOptions {
         if self.radius.is_some() && self.support_radius.is_some() {
             return Err(parameter("radius", "a radius or a support radius", "both"));
         }
-        let is_of_fluids = self.formula.formula()?.is_some_and(Formula::is_of_fluids);
-        if is_of_fluids && self.substance == Some(Substance::Molecule) {
+        let formula = self.formula.formula()?;
+        let sized = radii.iter().find(|(_, value)| value.is_some());
+        if let (Some((name, _)), true) = (sized, formula.is_some_and(|of| !of.takes_sizes())) {
+            let needed = "none for molmap, whose resolution says how wide all atoms are";
+            return Err(parameter(name, needed, "one"));
+        }
+        if formula.is_some_and(Formula::is_of_fluids) && self.substance == Some(Substance::Molecule)
+        {
             return Err(parameter("as", "particles for sph and splashsurf", "molecule"));
         }
         match self.repeat {

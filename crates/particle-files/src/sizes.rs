@@ -29,6 +29,9 @@ impl Sizing<'_> {
         spacing: impl Fn() -> Option<f64>,
         notes: &mut Notes,
     ) -> Result<Sizes, Flaw> {
+        if !self.formula.is_none_or(Formula::takes_sizes) {
+            return Ok(Sizes::Spacing(1.0));
+        }
         if let Some(sizes) = self.asked(notes) {
             return Ok(sizes);
         }

@@ -402,6 +402,10 @@ fn what_is_missing_is_named_with_a_way_out() {
         "a.csv, line 3, density: needed a finite number above 0, found -1; leave the particle out with \
          --drop"
     );
+    let options =
+        ReadOptions { formula: molmap, radius_scale: Some(2.0), ..ReadOptions::default() };
+    let sized = parse("a.xyz", MOLECULE.as_bytes(), &options).expect_err("refused").to_string();
+    assert!(sized.starts_with("radius scale: needed none for molmap"), "{sized}");
     let options = ReadOptions {
         formula: sph(),
         substance: Some(Substance::Molecule),

@@ -9,7 +9,7 @@ use crate::notes::Notes;
 use crate::particles::Particles;
 
 /// The density that splashsurf contours (Löschner, Böttcher, Jeske and Bender 2023, Weighted Laplacian smoothing
-/// for surface reconstruction of particle-based fluids; `density_map.rs` and `kernel.rs` of its source):
+/// for surface reconstruction of particle-based fluids; `density_map` and `kernel` of its library):
 /// Σ V·W(d, R) with the cubic spline, whose support radius R is twice the smoothing length, which is given in
 /// particle radii; V = 1/ΣW, a particle's mass over its density, in which equal masses cancel; and the surface
 /// threshold 0.6. A particle's radius is that of the file, or half the spacing. splashsurf's grid, its kernel in
