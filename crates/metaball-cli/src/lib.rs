@@ -187,6 +187,14 @@ mod tests {
         assert!(
             message("metaball compare --kernel gauss").contains("wyvill, perlin, cubic-spline")
         );
+        assert!(message("metaball render a.pdb --preset vmd").contains("quicksurf, molmap"));
+        assert!(message("metaball render a.vtu --sph --preset splashsurf").contains("--preset"));
+        assert!(
+            parse("metaball render a.pdb --preset gaussian-surface --radius-offset -0.2").is_ok()
+        );
+        assert!(
+            parse("metaball animate f%d.vtu --sph --support-per-h 1 --kernel wendland-c2").is_ok()
+        );
         assert!(message("metaball stability --cases nosuch").contains("grazing"));
         assert!(message("metaball animate splash --frames 5..5").contains("FIRST..END"));
         assert!(message("metaball animate splash --out frame.png").contains("frame-%04d.png"));

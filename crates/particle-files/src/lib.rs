@@ -7,6 +7,7 @@
 //!   camera that shows it.
 //! - [`read()`] stops at the particles: positions with sizes and colours, before a kernel and a threshold
 //!   make a surface of them. [`parse()`] does the same to bytes that are no file.
+//! - A [`Formula`] makes the balls of SPH or of another program of particles, where one is asked for.
 //! - [`read_table()`] stops before anything is decided: positions and columns as the file has them.
 //! - [`Sequence`] has a scene for each frame.
 //!

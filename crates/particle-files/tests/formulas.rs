@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use glam::DVec3;
 use metaball_core::{Kernel, Scene};
 use particle_files::{
-    ByFormula, FormulaOptions, LoadError, Notes, Overrides, Particles, Preset, ReadOptions,
-    Sequence, Substance, load, parse,
+    ByFormula, FormulaOptions, LoadError, Notes, Overrides, PackedFrames, Particles, Preset,
+    ReadOptions, Sequence, Sizes, Substance, load, parse,
 };
 
 /// Ethanol, and two atoms that other programs have other radii for.
@@ -445,5 +445,32 @@ fn a_simulated_fluid_has_the_field_one() {
         let part = |part: f64| fields[(part * fields.len() as f64) as usize];
         assert!(fields.len() > 50 && (part(0.5) - 1.0).abs() < 0.02, "{kernel}: {fields:?}");
         assert!(part(0.05) > 0.93 && part(0.95) < 1.08, "{kernel}: {fields:?}");
+    }
+}
+
+/// Frames of the simulated splash of bench-scenes, whose supports are two spacings, with those of 2.6.
+#[test]
+fn frames_of_a_simulation_have_the_field_one() {
+    let file =
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../bench-scenes/data/splash.frames");
+    let bytes = std::fs::read(file).expect("it is in the repository");
+    let frames = PackedFrames::parse(&bytes).expect("legal");
+    for number in [0, frames.count() / 2, frames.count() - 1] {
+        let frame = frames.frame(number);
+        let places: Vec<DVec3> =
+            frame.positions.iter().step_by(7).map(|at| *at + DVec3::splat(0.004)).collect();
+        let radii = vec![1.3 * frames.radius(); frame.len()];
+        let particles = Particles { sizes: Sizes::Support(radii), ..frame };
+        let scene = scene_of(applied(particles, sph(), None).expect("legal"));
+        let median = |scene: &Scene| {
+            let mut fields: Vec<f64> = places.iter().map(|at| field(scene, *at)).collect();
+            fields.sort_by(f64::total_cmp);
+            fields[fields.len() / 2]
+        };
+        let middle = median(&scene);
+        assert!((middle - 1.0).abs() < 0.02, "frame {number}: {middle}");
+        // The canary: another kernel on the same balls.
+        let other = median(&scene.with_kernel(Kernel::Wyvill));
+        assert!((other - 1.0).abs() > 0.1, "frame {number}: {other}");
     }
 }
