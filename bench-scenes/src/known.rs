@@ -113,24 +113,9 @@ const KNOWN: &[KnownScene] = &[
         Small(|| small::two(Kernel::CubicSpline)),
     ),
     small(
-        "two-quintic-spline",
-        "Two balls with one surface, the quintic spline of SPH.",
-        Small(|| small::two(Kernel::QuinticSpline)),
-    ),
-    small(
         "two-wendland-c2",
         "Two balls with one surface, Wendland's function of smoothness C².",
         Small(|| small::two(Kernel::WendlandC2)),
-    ),
-    small(
-        "two-wendland-c4",
-        "Two balls with one surface, Wendland's function of smoothness C⁴.",
-        Small(|| small::two(Kernel::WendlandC4)),
-    ),
-    small(
-        "two-wendland-c6",
-        "Two balls with one surface, Wendland's function of smoothness C⁶.",
-        Small(|| small::two(Kernel::WendlandC6)),
     ),
     small(
         "two-gaussian",
