@@ -1,5 +1,6 @@
 //! What computes a picture.
 
+#[cfg(feature = "gpu")]
 use metaball_core::gpu::{AdapterChoice, Gpu, GpuError};
 
 use crate::Error;
@@ -17,6 +18,7 @@ pub enum Backend {
     #[default]
     Fastest,
     /// A graphics adapter.
+    #[cfg(feature = "gpu")]
     Adapter(AdapterChoice),
     /// The CPU, without any graphics API.
     Cpu,
@@ -24,11 +26,13 @@ pub enum Backend {
 
 /// What was opened to compute a picture, and why.
 pub(crate) struct Opened {
+    #[cfg(feature = "gpu")]
     /// The adapter; `None` when it is the CPU that computes.
     pub(crate) gpu: Option<Gpu>,
     pub(crate) why: String,
 }
 
+#[cfg(feature = "gpu")]
 impl Backend {
     /// The adapter that was asked for, in words, if one was.
     pub(crate) fn adapter_asked(&self) -> Option<String> {
@@ -44,7 +48,7 @@ impl Backend {
     /// Opens what computes. `needs_adapter` says what cannot be drawn without an adapter, if anything.
     pub(crate) fn open(&self, needs_adapter: Option<&str>) -> Result<Opened, Error> {
         let choice = match self {
-            Self::Cpu => return Ok(Opened { gpu: None, why: "asked for".to_owned() }),
+            Self::Cpu => return Ok(Opened::cpu("asked for")),
             Self::Adapter(choice) => {
                 let gpu = Some(Gpu::new(choice)?);
                 return Ok(Opened { gpu, why: "asked for".to_owned() });
@@ -64,30 +68,61 @@ impl Backend {
                 Ok(Opened { gpu: Some(gpu), why: "a graphics processor".to_owned() })
             }
             (Err(GpuError::NoAdapter { .. }), None) => {
-                Ok(Opened { gpu: None, why: "no graphics processor found".to_owned() })
+                Ok(Opened::cpu("no graphics processor found"))
             }
             (Err(error), _) => Err(error.into()),
         }
     }
 }
 
+/// Without the feature `gpu` the CPU is all there is.
+#[cfg(not(feature = "gpu"))]
+impl Backend {
+    /// The adapter that was asked for, in words, if one was.
+    pub(crate) fn adapter_asked(&self) -> Option<String> {
+        None
+    }
+
+    /// Opens what computes. `needs_adapter` says what cannot be drawn without an adapter, if anything.
+    pub(crate) fn open(&self, needs_adapter: Option<&str>) -> Result<Opened, Error> {
+        match (needs_adapter, self) {
+            (Some(what), _) => Err(Error::NeedsAdapter {
+                what: what.to_owned(),
+                instead: "metaball was built without its feature gpu".to_owned(),
+            }),
+            (None, Self::Cpu) => Ok(Opened::cpu("asked for")),
+            (None, Self::Fastest) => Ok(Opened::cpu("built without adapters")),
+        }
+    }
+}
+
 /// Whether the environment names an adapter.
+#[cfg(feature = "gpu")]
 fn is_named() -> bool {
     std::env::var_os("WGPU_ADAPTER_NAME").is_some()
 }
 
 impl Opened {
+    /// The CPU, and why.
+    pub(crate) fn cpu(why: impl Into<String>) -> Self {
+        Self {
+            #[cfg(feature = "gpu")]
+            gpu: None,
+            why: why.into(),
+        }
+    }
+
     /// What computes and why, in a line.
     pub(crate) fn describe(&self) -> String {
-        let Self { gpu, why } = self;
-        match gpu {
-            Some(gpu) => format!("{} ({}): {why}", gpu.report().name, gpu.report().driver),
-            None => format!("the CPU ({} threads): {why}", rayon::current_num_threads()),
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &self.gpu {
+            return format!("{} ({}): {}", gpu.report().name, gpu.report().driver, self.why);
         }
+        format!("the CPU ({} threads): {}", rayon::current_num_threads(), self.why)
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "gpu"))]
 mod tests {
     use super::*;
 

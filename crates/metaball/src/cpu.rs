@@ -41,13 +41,23 @@ impl Built {
         Ok(Self { tree, time: start.elapsed() })
     }
 
-    /// What traces the scene that it was built for, cut to a region.
+    /// Bytes of the tree.
+    pub(crate) fn tree_bytes(&self) -> usize {
+        self.tree.stats().bytes
+    }
+
+    /// What traces the scene that it was built for.
+    pub(crate) fn whole_tracer<'a>(&'a self, scene: &'a Scene) -> Tracer<'a, Scene> {
+        Tracer::new(&self.tree, scene)
+    }
+
+    /// The same, cut to a region.
     pub(crate) fn tracer<'a>(
         &'a self,
         scene: &'a Scene,
         clip: &Clip,
     ) -> Result<ClippedTracer<'a, Scene>, Error> {
-        Ok(ClippedTracer::new(Tracer::new(&self.tree, scene), clip.clone())?)
+        Ok(ClippedTracer::new(self.whole_tracer(scene), clip.clone())?)
     }
 }
 
@@ -102,6 +112,12 @@ impl<'a> Painter<'a> {
             Look::Shared(_) => 1 << 20,
             Look::Lit(..) => 1 << 16,
         }
+    }
+
+    /// Pixels of a band of a picture that someone watches, and may break off: few enough to be done
+    /// in a second or so.
+    pub(crate) fn watched_pixels(&self) -> u32 {
+        self.band_pixels() / 4
     }
 
     /// What a band has to keep for a picture, and for files of hits and of light where they are wanted.

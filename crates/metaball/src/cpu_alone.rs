@@ -23,12 +23,12 @@ impl DrawOptions {
         }
         match self.backend.adapter_asked() {
             Some(adapter) => refused("the CPU, which alone has it", adapter),
-            None => Ok(Opened { gpu: None, why: format!("it alone has {option}") }),
+            None => Ok(Opened::cpu(format!("it alone has {option}"))),
         }
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "gpu"))]
 mod tests {
     use bench_scenes::{Overrides, load};
     use glam::Vec3;

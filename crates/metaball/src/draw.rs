@@ -2,20 +2,19 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::time::Duration;
 
-use metaball_core::gpu::{self, Gpu, IsoRenderer, RenderError, Shading, Targets};
 use metaball_core::shade::CpuPicture;
 use metaball_core::{Camera, Clip, Hit, Image, Picture, Scene, ValueRange, View};
 use metaball_light::Film;
 use picture_files::{write_hits, write_light, write_picture};
 
+#[cfg(feature = "gpu")]
+use crate::adapter;
 use crate::backend::Opened;
 use crate::band::{Band, bands};
-use crate::certain::Certain;
 use crate::cpu::{Built, Painter};
 use crate::light::Lighting;
-use crate::summary::{Progress, Summary, Tally};
+use crate::summary::{Progress, Stage, Summary, asked};
 use crate::{Backend, Error, LightOptions, Method, Viewpoint};
 
 /// How to draw.
@@ -130,6 +129,7 @@ pub fn draw(scene: &Scene, camera: &Camera, options: &DrawOptions) -> Result<Dra
 /// What became of a picture that an adapter was to draw.
 pub(crate) enum Attempt {
     /// It is drawn.
+    #[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "only an adapter draws at once"))]
     Drawn(Box<Drawing>),
     /// It is left to the CPU, for the reason that these words give.
     Left { computed_by: String },
@@ -144,92 +144,21 @@ pub(crate) fn on_adapter(
     view: &View,
     progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Attempt, Error> {
-    let Some(gpu) = &opened.gpu else {
-        return Ok(Attempt::Left { computed_by: opened.describe() });
-    };
-    match drawn_by((gpu, opened.describe()), options, scene, view, progress) {
-        Ok(drawing) => Ok(Attempt::Drawn(Box::new(drawing))),
-        Err(Error::Render(refusal)) if refusal.is_too_large() && options.is_for_cpu() => {
-            let computed_by = format!("the CPU, being too large for the adapter: {refusal}");
-            Ok(Attempt::Left { computed_by })
-        }
-        Err(Error::Render(refusal)) => Err(options.refused(refusal)),
-        Err(error) => Err(error),
+    #[cfg(feature = "gpu")]
+    if let Some(gpu) = &opened.gpu {
+        return match adapter::draw((gpu, opened.describe()), options, scene, view, progress) {
+            Ok(drawing) => Ok(Attempt::Drawn(Box::new(drawing))),
+            Err(Error::Render(refusal)) if refusal.is_too_large() && options.is_for_cpu() => {
+                let computed_by = format!("the CPU, being too large for the adapter: {refusal}");
+                Ok(Attempt::Left { computed_by })
+            }
+            Err(Error::Render(refusal)) => Err(options.refused(refusal)),
+            Err(error) => Err(error),
+        };
     }
-}
-
-fn drawn_by(
-    (gpu, computed_by): (&Gpu, String),
-    options: &DrawOptions,
-    scene: &Scene,
-    view: &View,
-    progress: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Drawing, Error> {
-    let targets = options.targets(gpu, scene)?;
-    let Prepared { mut renderer, build, account } = prepared(gpu, options, scene, view)?;
-    gpu::render(gpu, renderer.as_mut(), &targets, view)?;
-    let frame = gpu::render(gpu, renderer.as_mut(), &targets, view)?.wall;
-    let certain = Certain::new(scene);
-    let mut hits = targets.read_hits(gpu)?;
-    let asked_again = certain.decide(gpu, &targets, view, &mut hits)?;
-    let tally = Tally { frame, asked_again, ..Tally::of(&hits) };
-    let mut summary = Summary { tally, range: None, samples: None, account, computed_by, build };
-    let Some(lighting) = options.lighting(view, scene)? else {
-        let shaded = Shading::new(gpu).draw(&targets, view, scene, options.picture)?;
-        summary.range = shaded.range;
-        return Ok(Drawing { image: shaded.image, hits, film: None, summary });
-    };
-    let lit = lighting.draw(gpu, renderer.as_mut(), &certain, view, &hits, progress)?;
-    summary.samples = Some(lit.samples);
-    summary.tally.light = lit.time;
-    summary.tally.asked_again += lit.asked_again;
-    Ok(Drawing { image: lit.image, hits, film: Some(lit.film), summary })
-}
-
-/// A renderer that has its scene.
-struct Prepared {
-    renderer: Box<dyn IsoRenderer>,
-    build: Duration,
-    account: Vec<(&'static str, String)>,
-}
-
-fn prepared(
-    gpu: &Gpu,
-    options: &DrawOptions,
-    scene: &Scene,
-    view: &View,
-) -> Result<Prepared, Error> {
-    #[cfg(feature = "harness")]
-    if let Method::Auto(choosing) = &options.method {
-        return chosen(gpu, options, choosing, scene, view);
-    }
-    #[cfg(not(feature = "harness"))]
-    let _asked_by_auto_alone = view;
-    let mut renderer = options.renderer()?;
-    let build = renderer.build(gpu, scene)?.structure;
-    Ok(Prepared { renderer, build, account: options.method.account() })
-}
-
-#[cfg(feature = "harness")]
-fn chosen(
-    gpu: &Gpu,
-    options: &DrawOptions,
-    choosing: &crate::Choosing,
-    scene: &Scene,
-    view: &View,
-) -> Result<Prepared, Error> {
-    let mut candidates = harness::configuration::sweeps::candidates();
-    candidates.retain(|configuration| {
-        let tree = configuration.technique.tree().map(|options| options.kind());
-        configuration.needs_adapter() && options.light.is_given_by_tree(tree)
-    });
-    let auto = harness::auto::Auto::new(candidates, choosing.max_error, choosing.cache.clone());
-    let chosen = auto.choose(Some(gpu), scene, view)?;
-    let account = chosen.account();
-    let method = Method::Listed(chosen.configuration);
-    let mut renderer = DrawOptions { method, ..options.clone() }.renderer()?;
-    let build = renderer.build(gpu, scene)?.structure;
-    Ok(Prepared { renderer, build, account })
+    #[cfg(not(feature = "gpu"))]
+    let _asked_by_adapters_alone = (options, scene, view, progress);
+    Ok(Attempt::Left { computed_by: opened.describe() })
 }
 
 /// Draws without an adapter, in this light, if there is any. `computed_by` says why, in words.
@@ -241,12 +170,30 @@ pub(crate) fn on_cpu(
     computed_by: String,
 ) -> Result<Drawing, Error> {
     let built = Built::new(&options.method, scene)?;
+    let all = |_| ControlFlow::Continue(());
+    draw_built(&built, (scene, view), options, lighting, computed_by, all)
+}
+
+/// Draws a scene that is built, without an adapter. After each band the callback gets how many rows are
+/// done, and may break off.
+pub(crate) fn draw_built(
+    built: &Built,
+    (scene, view): (&Scene, &View),
+    options: &DrawOptions,
+    lighting: Option<&Lighting>,
+    computed_by: String,
+    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Drawing, Error> {
     let tracer = built.tracer(scene, &options.clip_of(scene))?;
     let painter = Painter::new(&tracer, scene, view, options, lighting)?;
     let planes = painter.planes(true, true);
+    let (stage, of, resumed) = (Stage::Drawing, view.height(), 0);
+    let mut report = |done| asked(progress(Progress { stage, done, of, resumed }));
     let mut whole = Band::default();
-    for rows in bands(view, 0, painter.band_pixels()) {
+    report(0)?;
+    for rows in bands(view, 0, painter.watched_pixels()) {
         whole.append(painter.band(rows, planes));
+        report(whole.rows.end)?;
     }
     let mut range = None;
     if !planes.pixels {
@@ -311,41 +258,9 @@ impl DrawOptions {
     }
 
     /// Whether the CPU draws such pictures too.
-    fn is_for_cpu(&self) -> bool {
+    pub(crate) fn is_for_cpu(&self) -> bool {
         let shades = self.light.is_asked() || CpuPicture::of(self.picture).is_some();
         shades && self.method.tree().is_some()
-    }
-
-    /// What an adapter refused, with what there is instead where it is too large.
-    pub(crate) fn refused(&self, refusal: RenderError) -> Error {
-        if !refusal.is_too_large() {
-            return refusal.into();
-        }
-        let instead = match self.method.tree() {
-            Some(_) if self.is_for_cpu() => "the CPU draws any size",
-            Some(_) => "a smaller size may fit",
-            None => "a smaller size may fit; the CPU draws any with bvh, fbvh or fbvh-certified",
-        };
-        Error::TooLarge { refusal, instead }
-    }
-
-    /// What the frames of such a scene are drawn to.
-    pub(crate) fn targets(&self, gpu: &Gpu, scene: &Scene) -> Result<Targets, RenderError> {
-        let (width, height) = self.size;
-        Targets::new(gpu, width, height, scene.colors().is_some(), self.counts())
-    }
-
-    /// A renderer of the method, without a scene.
-    pub(crate) fn renderer(&self) -> Result<Box<dyn IsoRenderer>, Error> {
-        self.method.on_adapter(self.counts()).ok_or_else(|| Error::Option {
-            option: "method",
-            needed: "one method for all frames".to_owned(),
-            found: format!("{}, which chooses for one picture", self.method.name()),
-        })
-    }
-
-    fn counts(&self) -> bool {
-        matches!(self.picture, Picture::Work(_))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+#[cfg(feature = "gpu")]
 use metaball_core::gpu::{GpuError, RenderError};
 use metaball_core::{CameraError, ViewError};
 use metaball_light::PanoramaError;
@@ -42,12 +43,15 @@ pub enum Error {
     #[error(transparent)]
     View(#[from] ViewError),
     /// There is no adapter to draw with.
+    #[cfg(feature = "gpu")]
     #[error(transparent)]
     Adapter(#[from] GpuError),
     /// The method or the adapter cannot draw the scene.
+    #[cfg(feature = "gpu")]
     #[error(transparent)]
     Render(#[from] RenderError),
     /// The picture, or the scene, does not fit the adapter.
+    #[cfg(feature = "gpu")]
     #[error("{refusal}; {instead}")]
     TooLarge {
         /// What, what it needs, and what the adapter has.

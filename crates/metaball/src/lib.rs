@@ -1,5 +1,5 @@
 //! Pictures, hits and animations of the smooth surface that particles imply, traced on whatever the
-//! machine has: a graphics adapter, or else the CPU.
+//! machine has: with the feature `gpu` a graphics adapter, or else the CPU.
 //!
 //! ```
 //! use metaball::{Backend, DrawOptions, Overrides, ReadOptions, draw, load};
@@ -23,19 +23,25 @@
 //!   [`Viewpoint`], [what it shows](DrawOptions::picture), [what is cut away](Clip), [`LightOptions`],
 //!   [which method](Method) and [what computes](Backend). All of them have defaults. The result is a
 //!   [`Drawing`]: the image, and distance, normal and verdict of every ray.
+//! - A [`Surface`] is a scene with its tree, to be drawn and traced any number of times.
 //! - [`draw_to_files`] draws it to files band by band, so that it may be of any size, and goes on with one
 //!   that was interrupted. It writes over none of its own [inputs](Outputs::inputs), which [`inputs()`] finds.
-//! - [`animate()`] draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
-//!   while the structure of the next one is built.
+//! - `animate` draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
+//!   while the structure of the next one is built (feature `gpu`).
 //!
-//! Without features the methods are the trees of the crate [`fbvh`]; the certified one, which is the
-//! default, answers no ray wrongly. Feature `harness` adds every other method, and a choice among all of
-//! them by measurement.
+//! The methods are the trees of the crate [`fbvh`]; the certified one, which is the default, answers no ray
+//! wrongly.
+//!
+//! # Features
+//! Without features the CPU draws, and nothing needs a graphics library. `gpu` adds graphics adapters and
+//! animations; `harness` adds every other method, and a choice among all of them by measurement.
 
+#[cfg(feature = "gpu")]
+mod adapter;
+#[cfg(feature = "gpu")]
 mod animate;
 mod backend;
 mod band;
-mod certain;
 mod convert;
 mod cpu;
 mod cpu_alone;
@@ -49,8 +55,10 @@ mod light;
 mod method;
 mod spool;
 mod summary;
+mod surface;
 mod viewpoint;
 
+#[cfg(feature = "gpu")]
 pub use animate::{
     AnimateOptions, AnimationEvent, AnimationReport, FrameOutcome, FrameReport, FrameTimes, animate,
 };
@@ -62,6 +70,7 @@ pub use error::Error;
 pub use files::{Outputs, draw_to_files};
 pub use legend::{legend_svg, save_legend};
 pub use light::{FloorKind, LightOptions};
+#[cfg(feature = "gpu")]
 pub use metaball_core::gpu::AdapterChoice;
 pub use metaball_core::{
     Aabb, Camera, Clip, ClipError, Hit, Image, Picture, Scene, Verdict, View, WorkKind,
@@ -75,4 +84,5 @@ pub use particle_files::{
     Sequence, Substance, Unit, inputs, load,
 };
 pub use summary::{Progress, Stage, Summary, Tally};
+pub use surface::Surface;
 pub use viewpoint::Viewpoint;

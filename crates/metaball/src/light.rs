@@ -3,5 +3,7 @@
 mod lighting;
 mod options;
 
+#[cfg(feature = "gpu")]
+pub(crate) use lighting::DEPTH_CUE_WIDTH;
 pub(crate) use lighting::Lighting;
 pub use options::{FloorKind, LightOptions};

@@ -1,6 +1,7 @@
 //! Who finds the surface.
 
 use fbvh::Options;
+#[cfg(feature = "gpu")]
 use metaball_core::gpu::IsoRenderer;
 
 /// A method of finding the surface along rays.
@@ -70,6 +71,7 @@ impl Method {
 
     /// A renderer on an adapter, without a scene. It counts its work or, as when timing, does not. `None`
     /// for methods that are on the CPU alone, and for `auto`, which has to see the view first.
+    #[cfg(feature = "gpu")]
     pub(crate) fn on_adapter(&self, counting: bool) -> Option<Box<dyn IsoRenderer>> {
         match self {
             Self::Tree(options) => {

@@ -24,7 +24,7 @@ use particle_files::{AnimatedScene, BoxError, NumberedPath};
 use picture_files::write_described;
 
 use super::report::{FrameOutcome, FrameReport, FrameTimes, milliseconds};
-use crate::certain::Certain;
+use crate::adapter::Certain;
 use crate::draw::on_cpu;
 use crate::light::Lighting;
 use crate::summary::Summary;
