@@ -24,6 +24,13 @@ pub fn framing(bounds: &Aabb, direction: Vec3) -> Camera {
     Camera::framing(&Aabb { min: center - half, max: center + half }, direction)
 }
 
+/// The camera of particles that come without one, from the front, and how many it leaves out: those that are
+/// far from the others.
+pub fn own_camera(scene: &Scene) -> (Camera, usize) {
+    let (near, outside) = near_bounds(scene);
+    (framing(&near, FRONT), outside)
+}
+
 /// The box for a camera to frame: all balls, or those that are not far out; where the surface goes on
 /// across the faces of the periodic cell, that cell.
 pub(crate) fn framed(

@@ -43,6 +43,7 @@
 mod animated_scene;
 mod atom_names;
 mod atom_radii;
+mod balls;
 mod binary;
 mod cell;
 mod coloring;
@@ -81,6 +82,7 @@ mod write;
 mod zip;
 
 pub use animated_scene::{AnimatedScene, BoxError};
+pub use balls::{Balls, Positions, Radii};
 pub use cell::Cell;
 pub use coloring::{ColorBy, Legend, Scale};
 pub use convert::{ConvertError, convert};
@@ -89,7 +91,7 @@ pub use formats::{Format, PackedFrames, pack_balls, pack_frames};
 pub use formula::{
     ByFormula, Formula, FormulaOptions, GaussianSurface, Molmap, Preset, QuickSurf, Sph, Splashsurf,
 };
-pub use framing::framing;
+pub use framing::{framing, own_camera};
 pub use inputs::inputs;
 pub use load::{Loaded, load};
 pub use notes::{Note, NoteKind, Notes};

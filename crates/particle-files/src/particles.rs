@@ -1,14 +1,13 @@
 //! Particles with radii and colours, before a kernel and a threshold make them a scene.
 
 use glam::DVec3;
-use metaball_core::{Color, Kernel, Metaball, Scene, SceneError};
-use rayon::prelude::*;
+use metaball_core::{Color, Kernel, Scene};
 
+use crate::balls::{Balls, Radii, supports_of_shown};
 use crate::cell::Cell;
 use crate::coloring::Legend;
 use crate::error::{Flaw, LoadError};
 use crate::notes::Notes;
-use crate::origin::origin_of;
 use crate::periodic;
 use crate::smoothing_length::support_per_h;
 use crate::table::{Column, Lines};
@@ -93,25 +92,15 @@ impl Particles {
         threshold: f32,
     ) -> Result<Scene, LoadError> {
         let radii = self.support_radii(kernel, threshold)?;
-        let origin = origin.unwrap_or_else(|| origin_of(&self.positions, &radii));
-        self.check_resolution(origin, &radii)?;
-        let strength = |index: usize| self.strengths.as_ref().map_or(1.0, |all| all[index]);
-        let ball = |(index, position): (usize, DVec3)| Metaball {
-            center: (position - origin).as_vec3(),
-            radius: radii.get(index),
-            strength: strength(index),
-        };
         let images = match &self.cell {
             Some(cell) if self.is_periodic => periodic::images(&self.positions, &radii, cell),
             _ => Vec::new(),
         };
         let balls =
-            self.positions.iter().copied().enumerate().chain(images.iter().copied()).map(ball);
-        let scene = Scene::new(balls, kernel, threshold).map_err(|error| {
-            let ball = ball_of(&error);
-            self.flaw_at(ball, Flaw::new(error.to_string()))
-        })?;
-        let scene = scene.with_origin(origin);
+            Balls { positions: &self.positions, radii, strengths: self.strengths.as_deref() };
+        let scene = balls
+            .scene_at(origin, &images, kernel, threshold)
+            .map_err(|(index, flaw)| self.flaw_at(index, flaw))?;
         let Some(mut colors) = self.colors else { return Ok(scene) };
         colors.extend(images.iter().map(|(index, _)| colors[*index]).collect::<Vec<_>>());
         Ok(scene.with_colors(colors)?)
@@ -119,56 +108,17 @@ impl Particles {
 
     /// The support radii under a kernel and a threshold.
     fn support_radii(&self, kernel: Kernel, threshold: f32) -> Result<Radii<'_>, LoadError> {
-        let shown = match &self.sizes {
-            Sizes::Support(radii) => return Ok(Radii::Each(radii.into())),
-            Sizes::Spacing(radius) => return Ok(Radii::All(*radius)),
+        match &self.sizes {
+            Sizes::Support(radii) => Ok(Radii::Each(radii.into())),
+            Sizes::Spacing(radius) => Ok(Radii::All(*radius)),
             Sizes::Smoothing(lengths) => {
                 let factor = support_per_h(kernel) as f32;
                 let radii: Vec<f32> = lengths.iter().map(|length| factor * length).collect();
-                return Ok(Radii::Each(radii.into()));
+                Ok(Radii::Each(radii.into()))
             }
-            Sizes::Shown(shown) => shown,
-        };
-        // R over the radius that shows, for one strength after the other: most are the same.
-        let mut last = None;
-        let mut radii = Vec::with_capacity(shown.len());
-        for (index, radius) in shown.iter().enumerate() {
-            let strength = self.strengths.as_ref().map_or(1.0, |strengths| strengths[index]);
-            let factor = match last {
-                Some((of, factor)) if of == strength => factor,
-                _ => support_over_shown(kernel, threshold, strength)
-                    .map_err(|flaw| self.flaw_at(Some(index), flaw))?,
-            };
-            last = Some((strength, factor));
-            radii.push(radius * factor);
-        }
-        Ok(Radii::Each(radii.into()))
-    }
-
-    /// Refuses particles that f32 moves by more than a small part of their radius.
-    fn check_resolution(&self, origin: DVec3, radii: &Radii<'_>) -> Result<(), LoadError> {
-        const PART: f64 = 1.0 / 64.0;
-        let moved = |position: &DVec3| {
-            let exact = position - origin;
-            (exact - exact.as_vec3().as_dvec3()).abs().max_element()
-        };
-        let too_far = |(index, position): (usize, &DVec3)| {
-            moved(position) > PART * f64::from(radii.get(index))
-        };
-        match self.positions.par_iter().enumerate().position_first(too_far) {
-            None => Ok(()),
-            Some(index) => {
-                let found = self.positions[index];
-                let flaw = Flaw::needed(
-                    "particles whose place f32 tells to a 64th of their support radius",
-                    format_args!(
-                        "one at {found} with R = {}, {} from the others' middle",
-                        radii.get(index),
-                        (found - origin).length()
-                    ),
-                );
-                Err(self
-                    .flaw_at(Some(index), flaw.or("leave it out with --drop, or scale its radius")))
+            Sizes::Shown(shown) => {
+                supports_of_shown(shown, self.strengths.as_deref(), kernel, threshold)
+                    .map_err(|(index, flaw)| self.flaw_at(Some(index), flaw))
             }
         }
     }
@@ -195,51 +145,6 @@ impl Particles {
             Sizes::Spacing(radius) => Some(radius),
             _ => None,
         }
-    }
-}
-
-/// Support radii.
-pub(crate) enum Radii<'a> {
-    Each(std::borrow::Cow<'a, [f32]>),
-    All(f32),
-}
-
-impl Radii<'_> {
-    pub(crate) fn get(&self, index: usize) -> f32 {
-        match self {
-            Self::Each(radii) => radii[index],
-            Self::All(radius) => *radius,
-        }
-    }
-}
-
-/// The support radius over the radius at which a ball alone shows.
-fn support_over_shown(kernel: Kernel, threshold: f32, strength: f32) -> Result<f32, Flaw> {
-    let unit = Metaball { strength, ..Metaball::new(glam::Vec3::ZERO, 1.0) };
-    match kernel.core_radius(&unit, threshold) {
-        Some(shown) if shown > 0.0 => Ok((1.0 / shown) as f32),
-        _ if !(threshold.is_finite() && threshold > 0.0) => {
-            Err(Flaw::new(SceneError::Threshold { found: threshold }.to_string()))
-        }
-        _ if !(strength.is_finite() && strength > 0.0) => {
-            Err(Flaw::needed("a finite strength above 0", strength))
-        }
-        _ => Err(Flaw::needed(
-            &format!(
-                "a strength above the threshold {threshold}, so that it shows alone at its radius"
-            ),
-            strength,
-        )
-        .or("name the column support_radius if it is the radius at which the kernel ends")),
-    }
-}
-
-fn ball_of(error: &SceneError) -> Option<usize> {
-    match *error {
-        SceneError::Center { index, .. }
-        | SceneError::Radius { index, .. }
-        | SceneError::Strength { index, .. } => Some(index),
-        _ => None,
     }
 }
 

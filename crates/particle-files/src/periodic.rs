@@ -6,7 +6,8 @@ use crate::cell::Cell;
 use crate::error::Flaw;
 use crate::notes::counted;
 use crate::options::ReadOptions;
-use crate::particles::{Particles, Radii, Sizes};
+use crate::balls::Radii;
+use crate::particles::{Particles, Sizes};
 
 /// The particles of as many cells as are asked for, one cell now; wrapped into it where it is to go on
 /// across its faces.

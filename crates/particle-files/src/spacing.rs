@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use glam::{DVec3, I64Vec3};
 use rayon::prelude::*;
 
+use crate::balls::Positions;
+
 /// Particles whose nearest neighbours are looked for.
 const SAMPLES: usize = 1001;
 
@@ -13,9 +15,9 @@ const SAMPLES: usize = 1001;
 ///
 /// Distances to a few of the others bound those to all. Where half of the bounds are at most b, so is the
 /// median, and only neighbours nearer than b count: they are found in cells of that size.
-pub(crate) fn median_spacing(positions: &[DVec3]) -> Option<f64> {
-    let first = positions.first()?;
-    if positions.iter().all(|position| position == first) {
+pub(crate) fn median_spacing<P: Positions>(positions: &P) -> Option<f64> {
+    let count = positions.count();
+    if (1..count).all(|index| positions.at(index) == positions.at(0)) {
         return None;
     }
     let samples = picked(positions, SAMPLES);
@@ -31,22 +33,24 @@ pub(crate) fn median_spacing(positions: &[DVec3]) -> Option<f64> {
 }
 
 /// At most so many of them, at equal steps.
-pub(crate) fn picked(positions: &[DVec3], most: usize) -> Vec<DVec3> {
-    let step = positions.len().div_ceil(most).max(1);
-    positions.iter().step_by(step).copied().collect()
+pub(crate) fn picked<P: Positions>(positions: &P, most: usize) -> Vec<DVec3> {
+    let count = positions.count();
+    let step = count.div_ceil(most).max(1);
+    (0..count).step_by(step).map(|index| positions.at(index)).collect()
 }
 
 /// For each sample the least distance above 0 to any of the positions.
-fn nearest(samples: &[DVec3], positions: &[DVec3]) -> Vec<f64> {
+fn nearest<P: Positions>(samples: &[DVec3], positions: &P) -> Vec<f64> {
     let nearest = |sample: &DVec3| {
-        let distances = positions.iter().map(|position| sample.distance(*position));
+        let all = (0..positions.count()).map(|index| positions.at(index));
+        let distances = all.map(|position| sample.distance(position));
         distances.filter(|distance| *distance > 0.0).fold(f64::INFINITY, f64::min)
     };
     samples.par_iter().map(nearest).collect()
 }
 
 /// The same where it is at most `bound`; where it is more, anything from it to infinity.
-fn nearest_within(samples: &[DVec3], positions: &[DVec3], bound: f64) -> Vec<f64> {
+fn nearest_within<P: Positions>(samples: &[DVec3], positions: &P, bound: f64) -> Vec<f64> {
     let cell = |position: DVec3| (position / bound).floor().as_i64vec3();
     let mut near: HashMap<I64Vec3, Vec<usize>> = HashMap::new();
     for (index, sample) in samples.iter().enumerate() {
@@ -57,9 +61,10 @@ fn nearest_within(samples: &[DVec3], positions: &[DVec3], bound: f64) -> Vec<f64
         }
     }
     let infinite = || vec![f64::INFINITY; samples.len()];
-    let nearer = |mut distances: Vec<f64>, position: &DVec3| {
-        for index in near.get(&cell(*position)).into_iter().flatten() {
-            let distance = samples[*index].distance(*position);
+    let nearer = |mut distances: Vec<f64>, position: usize| {
+        let position = positions.at(position);
+        for index in near.get(&cell(position)).into_iter().flatten() {
+            let distance = samples[*index].distance(position);
             if distance > 0.0 && distance < distances[*index] {
                 distances[*index] = distance;
             }
@@ -70,7 +75,7 @@ fn nearest_within(samples: &[DVec3], positions: &[DVec3], bound: f64) -> Vec<f64
         mine.iter_mut().zip(others).for_each(|(mine, other)| *mine = mine.min(other));
         mine
     };
-    positions.par_iter().fold(infinite, nearer).reduce(infinite, least)
+    (0..positions.count()).into_par_iter().fold(infinite, nearer).reduce(infinite, least)
 }
 
 #[cfg(test)]
@@ -81,9 +86,9 @@ mod tests {
 
     #[test]
     fn particles_at_one_position_have_no_spacing() {
-        assert_eq!(median_spacing(&[]), None);
-        assert_eq!(median_spacing(&[DVec3::ONE; 3]), None);
-        assert_eq!(median_spacing(&[DVec3::ZERO, DVec3::ZERO, DVec3::X]), Some(1.0));
+        assert_eq!(median_spacing(&Vec::new()), None);
+        assert_eq!(median_spacing(&vec![DVec3::ONE; 3]), None);
+        assert_eq!(median_spacing(&vec![DVec3::ZERO, DVec3::ZERO, DVec3::X]), Some(1.0));
     }
 
     proptest! {

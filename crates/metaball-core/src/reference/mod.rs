@@ -163,16 +163,21 @@ impl<'a> Oracle<'a> {
         sum
     }
 
-    /// The unit vector against the field's gradient at a point in world space; zero where the
-    /// gradient vanishes.
-    pub fn normal(&self, point: DVec3) -> DVec3 {
-        let mut outward = DVec3::ZERO;
+    /// The field's gradient at a point in world space, per scene unit.
+    pub fn gradient(&self, point: DVec3) -> DVec3 {
+        let mut gradient = DVec3::ZERO;
         self.for_each_ball_at(point, |ball, offset, squared_ratio| {
             let radius = f64::from(ball.radius);
             let slope = f64::from(ball.strength) * self.scene.kernel().slope(squared_ratio);
-            outward -= slope / (radius * radius) * offset;
+            gradient += 2.0 * slope / (radius * radius) * offset;
         });
-        outward.normalize_or_zero()
+        gradient
+    }
+
+    /// The unit vector against the field's gradient at a point in world space; zero where the
+    /// gradient vanishes.
+    pub fn normal(&self, point: DVec3) -> DVec3 {
+        (-self.gradient(point)).normalize_or_zero()
     }
 
     /// The least radius of the supports that hold the point; 0 when none does.

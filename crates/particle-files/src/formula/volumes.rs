@@ -3,7 +3,8 @@
 use metaball_core::Kernel;
 
 use super::neighbours::Neighbours;
-use crate::particles::{Particles, Radii};
+use crate::balls::Radii;
+use crate::particles::Particles;
 use crate::periodic;
 
 /// The volume of each particle, mᵢ/Σⱼ mⱼW(xᵢ − xⱼ, Rᵢ): its mass over the density that SPH sums up (Monaghan 1992),

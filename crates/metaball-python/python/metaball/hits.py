@@ -1,0 +1,82 @@
+"""What rays meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+from os import PathLike
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _metaball
+from .arrays import floats
+
+
+class Verdict(IntEnum):
+    """Whether a ray meets the solid."""
+
+    MISS = 0
+    """The field stays below T along the whole ray."""
+    HIT = 1
+    """The field first reaches T at the hit's distance."""
+    INSIDE = 2
+    """The field is T or more where the ray starts."""
+    UNDECIDED = 3
+    """Arithmetic could not decide, not even in float64."""
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """What rays meet, in arrays of the rays' own shape; unpacks as `t, normals, verdicts = hits`."""
+
+    t: npt.NDArray[np.float32]
+    """Distance along the ray, in the particles' unit: +inf for a miss, `t_min` inside; shape (...)."""
+    normals: npt.NDArray[np.float32]
+    """Unit vectors out of the solid, against the field's gradient; 0 for a miss; shape (..., 3)."""
+    verdicts: npt.NDArray[np.uint8]
+    """Numbers of `Verdict`; shape (...)."""
+
+    def __iter__(self) -> Iterator[npt.NDArray[np.float32] | npt.NDArray[np.uint8]]:
+        return iter((self.t, self.normals, self.verdicts))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """That of the rays."""
+        return self.t.shape
+
+    @property
+    def is_hit(self) -> npt.NDArray[np.bool_]:
+        """Where there is a surface point: a hit, or a start inside; shape (...)."""
+        return (self.verdicts == Verdict.HIT) | (self.verdicts == Verdict.INSIDE)
+
+    def points(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The points that the rays hit, in the particles' coordinates; NaN for misses; shape (..., 3)."""
+        t = np.where(self.is_hit, self.t.astype(np.float64), np.nan)[..., np.newaxis]
+        along = floats("directions", directions).astype(np.float64)
+        unit = along / np.linalg.norm(along, axis=-1, keepdims=True)
+        return floats("origins", origins) + t * unit
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes the hits of a picture, of shape (height, width), as `.exr` or `.npy`.
+
+        The file has the distance and the normal of each pixel; `metaball score` reads it.
+
+        Raises
+        ------
+        ValueError
+            When they are not those of a picture, or the ending is another.
+        OSError
+            When the file cannot be written.
+        """
+        if len(self.shape) != 2:
+            raise ValueError(f"hits: needed those of a picture, (height, width), found {self.shape}")
+        height, width = self.shape
+        columns = (self.t.ravel(), self.normals.reshape(-1, 3), self.verdicts.ravel())
+        _metaball.save_hits(path, (width, height), *columns)
+
+    @classmethod
+    def _of(cls, columns: _metaball.Columns, shape: tuple[int, ...]) -> Hits:
+        t, normals, verdicts = columns
+        return cls(t.reshape(shape), normals.reshape(*shape, 3), verdicts.reshape(shape))

@@ -1,0 +1,123 @@
+//! Particles of files.
+
+use std::path::PathBuf;
+
+use metaball::{ReadOptions, Rule, Selection};
+use metaball_core::Color;
+use numpy::ndarray::Array2;
+use numpy::{PyArray1, PyArray2};
+use particle_files::{LoadError, NoteKind, Particles, Sizes, read};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::{raised, refused};
+
+/// The keywords of reading, `metaball.ReadOptions`; what is left out is `None`.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Reading {
+    substance: Option<String>,
+    radius: Option<f32>,
+    support_radius: Option<f32>,
+    radius_scale: Option<f32>,
+    units: Option<String>,
+    frame: Option<u32>,
+    model: Option<i64>,
+    columns: Option<Vec<String>>,
+    topology: Option<PathBuf>,
+    keep: Option<Rules>,
+    drop: Option<Rules>,
+    color_by: Option<String>,
+    repeat: Option<[u32; 3]>,
+}
+
+/// A rule, or some.
+#[derive(FromPyObject)]
+enum Rules {
+    #[pyo3(transparent, annotation = "str")]
+    One(String),
+    #[pyo3(transparent, annotation = "a sequence of str")]
+    Some(Vec<String>),
+}
+
+impl Rules {
+    fn parsed(rules: Option<Self>) -> Result<Vec<Rule>, LoadError> {
+        match rules {
+            None => Ok(Vec::new()),
+            Some(Self::One(rule)) => Ok(vec![rule.parse()?]),
+            Some(Self::Some(rules)) => rules.iter().map(|rule| rule.parse()).collect(),
+        }
+    }
+}
+
+impl Reading {
+    fn options(self) -> Result<ReadOptions, LoadError> {
+        Ok(ReadOptions {
+            substance: self.substance.map(|name| name.parse()).transpose()?,
+            radius: self.radius,
+            support_radius: self.support_radius,
+            radius_scale: self.radius_scale,
+            units: self.units.map(|name| name.parse()).transpose()?,
+            frame: self.frame,
+            model: self.model,
+            columns: self.columns,
+            topology: self.topology,
+            selection: Selection { keep: Rules::parsed(self.keep)?, drop: Rules::parsed(self.drop)? },
+            color_by: self.color_by.map(|text| text.parse()).transpose()?,
+            repeat: self.repeat,
+            ..ReadOptions::default()
+        })
+    }
+}
+
+/// The particles of a file: the arguments of `metaball.Particles`, and the notes as pairs of kind and text.
+#[pyfunction]
+pub(crate) fn read_particles<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    reading: Reading,
+) -> PyResult<(Bound<'py, PyDict>, Vec<(&'static str, String)>)> {
+    let particles = py
+        .detach(|| reading.options().and_then(|options| read(&path, &options)))
+        .map_err(raised)?;
+    let Particles { positions, sizes, strengths, colors, notes, .. } = particles;
+    let arguments = PyDict::new(py);
+    let coordinates = positions.iter().flat_map(|position| position.to_array()).collect();
+    arguments.set_item("centers", rows(py, coordinates)?)?;
+    match sizes {
+        Sizes::Support(radii) => {
+            arguments.set_item("support_radius", PyArray1::from_vec(py, radii))?;
+        }
+        Sizes::Shown(radii) => arguments.set_item("radius", PyArray1::from_vec(py, radii))?,
+        Sizes::Spacing(radius) => arguments.set_item("support_radius", radius)?,
+    }
+    if let Some(strengths) = strengths {
+        arguments.set_item("strength", PyArray1::from_vec(py, strengths))?;
+    }
+    if let Some(colors) = colors {
+        let channels = colors.into_iter().flat_map(Color::to_srgb).collect();
+        arguments.set_item("color", rows(py, channels)?)?;
+    }
+    let notes = notes.iter().map(|note| (kind(note.kind), note.text.clone())).collect();
+    Ok((arguments, notes))
+}
+
+/// An array of three numbers a row.
+pub(crate) fn rows<T: numpy::Element>(
+    py: Python<'_>,
+    numbers: Vec<T>,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let rows = Array2::from_shape_vec((numbers.len() / 3, 3), numbers)
+        .map_err(|error| refused("rows", "three numbers each", error))?;
+    Ok(PyArray2::from_owned_array(py, rows))
+}
+
+/// The name of a kind of note.
+fn kind(kind: NoteKind) -> &'static str {
+    match kind {
+        NoteKind::Guessed => "guessed",
+        NoteKind::LeftOut => "left out",
+        NoteKind::Changed => "changed",
+        _ => "read",
+    }
+}

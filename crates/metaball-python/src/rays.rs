@@ -1,0 +1,155 @@
+//! Rays from arrays, and what they meet as arrays.
+
+use std::ops::ControlFlow;
+
+use glam::{DVec3, Vec3};
+use metaball_core::{Hit, NO_LIMIT, Ray, Verdict};
+use numpy::ndarray::Array2;
+use numpy::{PyArray1, PyArray2};
+use particle_files::Positions;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::arrays::{Numbers, Points};
+use crate::errors::refused;
+
+/// Rays that are made and traced together: enough for all threads, few enough to stay near.
+pub(crate) const TOGETHER: usize = 1 << 17;
+
+/// Rays of arrays, relative to a scene's origin.
+#[derive(Clone, Copy)]
+pub(crate) struct Rays<'a> {
+    /// One for all, or one for each.
+    pub(crate) origins: Points<'a>,
+    pub(crate) directions: Points<'a>,
+    /// One for all, or one for each.
+    pub(crate) t_min: Numbers<'a>,
+    pub(crate) t_max: Numbers<'a>,
+    pub(crate) scene_origin: DVec3,
+}
+
+impl Rays<'_> {
+    pub(crate) fn count(&self) -> usize {
+        self.directions.count()
+    }
+
+    /// The rays from an index on, at most so many as are traced together, into a buffer.
+    ///
+    /// # Errors
+    /// Names the first that has no direction, or does not start at a point.
+    pub(crate) fn make(&self, first: usize, rays: &mut Vec<Ray>) -> PyResult<()> {
+        let count = TOGETHER.min(self.count() - first);
+        let made = (first..first + count).into_par_iter().map(|index| self.at(index));
+        made.collect_into_vec(rays);
+        let is_broken = |ray: &Ray| !(ray.direction.is_finite() && ray.origin.is_finite());
+        match rays.par_iter().position_first(is_broken) {
+            None => Ok(()),
+            Some(index) if rays[index].origin.is_finite() => {
+                let found = self.directions.at(first + index);
+                let what = format!("directions, ray {}", first + index);
+                Err(refused(&what, "a finite vector with a length above 0", found))
+            }
+            Some(index) => {
+                let found = one(self.origins.count(), first + index);
+                let what = format!("origins, ray {}", first + index);
+                Err(refused(&what, "a finite point", self.origins.at(found)))
+            }
+        }
+    }
+
+    #[inline]
+    fn at(&self, index: usize) -> Ray {
+        let origin = self.origins.at(one(self.origins.count(), index)) - self.scene_origin;
+        Ray {
+            origin: origin.as_vec3(),
+            direction: unit(self.directions.at(index)),
+            t_min: self.t_min.at(one(self.t_min.count(), index)),
+            t_max: self.t_max.at(one(self.t_max.count(), index)).min(NO_LIMIT),
+        }
+    }
+}
+
+/// The index of what is one for all, or one for each.
+#[inline]
+fn one(count: usize, index: usize) -> usize {
+    if count == 1 { 0 } else { index }
+}
+
+/// The unit vector of a direction, in f32: its own numbers where it is unit to rounding, NaN where it has no
+/// direction.
+#[inline]
+fn unit(direction: DVec3) -> Vec3 {
+    /// Three roundings to f32, of 6e-8 each, on the square of the length.
+    const ROUNDING: f64 = 4e-7;
+    let squared = direction.length_squared();
+    if (squared - 1.0).abs() <= ROUNDING {
+        return direction.as_vec3();
+    }
+    (direction / squared.sqrt()).as_vec3()
+}
+
+/// What rays meet, as arrays.
+pub(crate) type HitArrays<'py> =
+    (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray2<f32>>, Bound<'py, PyArray1<u8>>);
+
+/// What rays meet, column by column.
+#[derive(Default)]
+pub(crate) struct Columns {
+    t: Vec<f32>,
+    normals: Vec<f32>,
+    verdicts: Vec<u8>,
+}
+
+impl Columns {
+    pub(crate) fn of(hits: &[Hit]) -> Self {
+        let mut columns = Self::with_capacity(hits.len());
+        columns.append(hits);
+        columns
+    }
+
+    pub(crate) fn with_capacity(count: usize) -> Self {
+        Self {
+            t: Vec::with_capacity(count),
+            normals: Vec::with_capacity(3 * count),
+            verdicts: Vec::with_capacity(count),
+        }
+    }
+
+    pub(crate) fn append(&mut self, hits: &[Hit]) {
+        self.t.extend(hits.iter().map(|hit| hit.t));
+        self.normals.extend(hits.iter().flat_map(|hit| hit.normal.to_array()));
+        self.verdicts.extend(hits.iter().map(|hit| hit.verdict as u8));
+    }
+
+    pub(crate) fn into_arrays(self, py: Python<'_>) -> PyResult<HitArrays<'_>> {
+        let normals = Array2::from_shape_vec((self.t.len(), 3), self.normals)
+            .map_err(|error| refused("normals", "three for each ray", error))?;
+        Ok((
+            PyArray1::from_vec(py, self.t),
+            PyArray2::from_owned_array(py, normals),
+            PyArray1::from_vec(py, self.verdicts),
+        ))
+    }
+}
+
+/// Makes and traces all rays, some at a time: `answer` gets them in order, and `goes_on` how many are done.
+pub(crate) fn each_batch(
+    rays: &Rays<'_>,
+    mut answer: impl FnMut(&[Ray]) -> PyResult<()>,
+    mut goes_on: impl FnMut(usize) -> ControlFlow<()>,
+) -> PyResult<()> {
+    let mut together = Vec::new();
+    for first in (0..rays.count()).step_by(TOGETHER) {
+        rays.make(first, &mut together)?;
+        answer(&together)?;
+        if goes_on(first + together.len()).is_break() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Verdicts as numbers: `metaball.Verdict`.
+pub(crate) fn numbers(verdicts: &[Verdict]) -> impl Iterator<Item = u8> + '_ {
+    verdicts.iter().map(|verdict| *verdict as u8)
+}

@@ -1,0 +1,320 @@
+//! The surface of a scene: its tree, and what is asked of it.
+
+use glam::DVec3;
+use metaball::{DrawOptions, Drawing};
+use metaball_core::reference::Oracle;
+use metaball_core::{Camera as SceneCamera, Color, Scene};
+use numpy::ndarray::Array3;
+use numpy::{PyArray1, PyArray2, PyArray3};
+use particle_files::{Positions, kernel_named, own_camera};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::prelude::*;
+
+use crate::arrays::{NumberArray, PointArray};
+use crate::camera::Camera;
+use crate::errors::{raised, refused};
+use crate::file::rows;
+use crate::light::Light;
+use crate::options::{Corners, Plane, clip, picture_named};
+use crate::particles::Particles;
+use crate::rays::{Columns, HitArrays, Rays, each_batch, numbers};
+use crate::watch::Watch;
+
+/// A scene with its tree and a camera that shows it.
+#[pyclass(frozen, module = "metaball._metaball")]
+pub(crate) struct Surface {
+    surface: metaball::Surface,
+    camera: SceneCamera,
+}
+
+/// A picture: pixels, hits, and linear light where there is any.
+type PictureArrays<'py> =
+    (Bound<'py, PyArray3<u8>>, HitArrays<'py>, Option<Bound<'py, PyArray3<f32>>>);
+
+#[pymethods]
+impl Surface {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        particles: Particles<'_>,
+        kernel: &str,
+        threshold: f32,
+    ) -> PyResult<Self> {
+        let kernel = kernel_named(kernel, None).map_err(raised)?;
+        let scene = particles.scene(py, kernel, threshold).map_err(raised)?;
+        py.detach(|| Self::of(scene))
+    }
+
+    /// The surface of what `state` has given.
+    #[staticmethod]
+    fn restored(
+        py: Python<'_>,
+        particles: Particles<'_>,
+        kernel: &str,
+        threshold: f32,
+        origin: [f64; 3],
+    ) -> PyResult<Self> {
+        let kernel = kernel_named(kernel, None).map_err(raised)?;
+        let scene = particles.scene(py, kernel, threshold).map_err(raised)?;
+        py.detach(|| Self::of(scene.with_origin(DVec3::from_array(origin))))
+    }
+
+    /// Its balls in the scene's coordinates, as the arguments of `metaball.Particles`, and the scene's origin.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, [f64; 3])> {
+        let scene = self.surface.scene();
+        let arguments = PyDict::new(py);
+        let centers = scene.supports().iter().flat_map(|ball| ball.center.to_array()).collect();
+        arguments.set_item("centers", rows(py, centers)?)?;
+        let radii = scene.supports().iter().map(|ball| ball.radius);
+        arguments.set_item("support_radius", PyArray1::from_vec(py, radii.collect()))?;
+        if let Some(strengths) = scene.strengths() {
+            arguments.set_item("strength", PyArray1::from_slice(py, strengths))?;
+        }
+        if let Some(colors) = scene.colors() {
+            let channels = colors.iter().copied().flat_map(Color::to_srgb).collect();
+            arguments.set_item("color", rows(py, channels)?)?;
+        }
+        Ok((arguments, scene.origin().to_array()))
+    }
+
+    #[getter]
+    fn kernel(&self) -> String {
+        self.surface.scene().kernel().to_string()
+    }
+
+    #[getter]
+    fn threshold(&self) -> f32 {
+        self.surface.scene().threshold()
+    }
+
+    #[getter]
+    fn tree_bytes(&self) -> usize {
+        self.surface.tree_bytes()
+    }
+
+    #[getter]
+    fn build_seconds(&self) -> f64 {
+        self.surface.build_time().as_secs_f64()
+    }
+
+    /// Corners of the box around all supports, in the particles' coordinates; `None` where there is no ball.
+    #[getter]
+    fn bounds(&self) -> Option<([f64; 3], [f64; 3])> {
+        let scene = self.surface.scene();
+        let (bounds, origin) = (scene.bounds(), scene.origin());
+        let corner = |corner: glam::Vec3| (corner.as_dvec3() + origin).to_array();
+        (!bounds.is_empty()).then(|| (corner(bounds.min), corner(bounds.max)))
+    }
+
+    /// Eye, point looked at, up and field of view of the camera that shows it.
+    #[getter]
+    fn camera(&self) -> ([f64; 3], [f64; 3], [f32; 3], f32) {
+        let (camera, origin) = (&self.camera, self.surface.scene().origin());
+        let eye = camera.eye().as_dvec3();
+        let ahead = eye + camera.forward().as_dvec3();
+        let degrees = 2.0 * camera.half_height().atan().to_degrees();
+        ((eye + origin).to_array(), (ahead + origin).to_array(), camera.up().to_array(), degrees)
+    }
+
+    fn __len__(&self) -> usize {
+        self.surface.scene().len()
+    }
+
+    /// Draws a picture.
+    #[expect(clippy::too_many_arguments, reason = "those of `metaball.Surface.render`")]
+    fn render<'py>(
+        &self,
+        py: Python<'py>,
+        camera: Option<Camera>,
+        size: (u32, u32),
+        picture: &str,
+        planes: Vec<Plane>,
+        corners: Option<Corners>,
+        light: Light,
+        bar: Option<Py<PyAny>>,
+    ) -> PyResult<PictureArrays<'py>> {
+        let options = DrawOptions {
+            size,
+            viewpoint: Camera::viewpoint(camera),
+            picture: picture_named(picture)?,
+            clip: clip(planes, corners)?,
+            light: light.options()?,
+            ..DrawOptions::default()
+        };
+        let mut watch = Watch::new(bar);
+        let drawn = py.detach(|| {
+            self.surface
+                .draw(&self.camera, &options, |progress| watch.goes_on(progress.done as usize))
+        });
+        let Drawing { image, hits, film, .. } = watch.outcome(drawn.map_err(raised))?;
+        let (width, height) = (image.width as usize, image.height as usize);
+        let columns = py.detach(|| Columns::of(&hits));
+        let light = film.map(|film| {
+            let channels = film.light.iter().flat_map(|light| light.to_array()).collect();
+            array3(py, (height, width, 3), channels)
+        });
+        let pixels = array3(py, (height, width, 4), image.rgba)?;
+        Ok((pixels, columns.into_arrays(py)?, light.transpose()?))
+    }
+
+    /// Rays of a camera: origins (1, 3) and directions (n, 3), row by row from the top left.
+    fn rays<'py>(
+        &self,
+        py: Python<'py>,
+        camera: Option<Camera>,
+        size: (u32, u32),
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f32>>)> {
+        let scene = self.surface.scene();
+        let camera = Camera::viewpoint(camera).camera(&self.camera, scene).map_err(raised)?;
+        let view = metaball::View::new(camera, size.0, size.1).map_err(raised)?;
+        let eye = (camera.eye().as_dvec3() + scene.origin()).to_array();
+        let rays = py.detach(|| view.rays());
+        let directions = rays.iter().flat_map(|ray| ray.direction.to_array()).collect();
+        Ok((rows(py, eye.to_vec())?, rows(py, directions)?))
+    }
+
+    /// First hits of rays.
+    fn trace<'py>(
+        &self,
+        py: Python<'py>,
+        origins: PointArray<'py>,
+        directions: PointArray<'py>,
+        t_min: NumberArray<'py>,
+        t_max: NumberArray<'py>,
+        bar: Option<Py<PyAny>>,
+    ) -> PyResult<HitArrays<'py>> {
+        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let mut watch = Watch::new(bar);
+        let traced = py.detach(|| {
+            let tracer = self.surface.tracer();
+            let mut columns = Columns::with_capacity(rays.count());
+            let answer = |rays: &[_]| {
+                columns.append(&tracer.first_hits(rays));
+                Ok(())
+            };
+            each_batch(&rays, answer, |done| watch.goes_on(done))?;
+            Ok(columns)
+        });
+        watch.outcome(traced)?.into_arrays(py)
+    }
+
+    /// Where rays that start inside leave the solid.
+    fn exit<'py>(
+        &self,
+        py: Python<'py>,
+        origins: PointArray<'py>,
+        directions: PointArray<'py>,
+        t_min: NumberArray<'py>,
+        t_max: NumberArray<'py>,
+    ) -> PyResult<HitArrays<'py>> {
+        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let mut watch = Watch::new(None);
+        let traced = py.detach(|| {
+            let tracer = self.surface.tracer();
+            let mut columns = Columns::with_capacity(rays.count());
+            let answer = |rays: &[_]| {
+                let exits = tracer.first_exits(rays);
+                columns.append(&exits.map_err(raised)?);
+                Ok(())
+            };
+            each_batch(&rays, answer, |done| watch.goes_on(done))?;
+            Ok(columns)
+        });
+        watch.outcome(traced)?.into_arrays(py)
+    }
+
+    /// Whether there is solid on rays: their verdicts.
+    fn any_hit<'py>(
+        &self,
+        py: Python<'py>,
+        origins: PointArray<'py>,
+        directions: PointArray<'py>,
+        t_min: NumberArray<'py>,
+        t_max: NumberArray<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<u8>>> {
+        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let mut watch = Watch::new(None);
+        let traced = py.detach(|| {
+            let tracer = self.surface.tracer();
+            let mut verdicts = Vec::with_capacity(rays.count());
+            let answer = |rays: &[_]| {
+                verdicts.extend(numbers(&tracer.any_hits(rays)));
+                Ok(())
+            };
+            each_batch(&rays, answer, |done| watch.goes_on(done))?;
+            Ok(verdicts)
+        });
+        Ok(PyArray1::from_vec(py, watch.outcome(traced)?))
+    }
+
+    /// The field at points, f64.
+    fn field<'py>(
+        &self,
+        py: Python<'py>,
+        points: PointArray<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let points = points.points();
+        let values = py.detach(|| {
+            let (oracle, origin) = self.oracle();
+            let value = |index| oracle.field(points.at(index) - origin);
+            (0..points.count()).into_par_iter().map(value).collect()
+        });
+        Ok(PyArray1::from_vec(py, values))
+    }
+
+    /// The field's gradient at points, f64.
+    fn gradient<'py>(
+        &self,
+        py: Python<'py>,
+        points: PointArray<'py>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = points.points();
+        let values: Vec<[f64; 3]> = py.detach(|| {
+            let (oracle, origin) = self.oracle();
+            let value = |index| oracle.gradient(points.at(index) - origin).to_array();
+            (0..points.count()).into_par_iter().map(value).collect()
+        });
+        rows(py, values.into_flattened())
+    }
+}
+
+impl Surface {
+    fn of(scene: Scene) -> PyResult<Self> {
+        let (camera, _) = own_camera(&scene);
+        let surface = metaball::Surface::build(scene).map_err(raised)?;
+        Ok(Self { surface, camera })
+    }
+
+    fn rays_of<'a>(
+        &self,
+        origins: &'a PointArray<'_>,
+        directions: &'a PointArray<'_>,
+        t_min: &'a NumberArray<'_>,
+        t_max: &'a NumberArray<'_>,
+    ) -> Rays<'a> {
+        Rays {
+            origins: origins.points(),
+            directions: directions.points(),
+            t_min: t_min.numbers(),
+            t_max: t_max.numbers(),
+            scene_origin: self.surface.scene().origin(),
+        }
+    }
+
+    /// The reference, and the origin of its coordinates.
+    fn oracle(&self) -> (Oracle<'_>, DVec3) {
+        (Oracle::new(self.surface.scene()), self.surface.scene().origin())
+    }
+}
+
+/// An array of three axes, from its numbers in C order.
+fn array3<T: numpy::Element>(
+    py: Python<'_>,
+    shape: (usize, usize, usize),
+    numbers: Vec<T>,
+) -> PyResult<Bound<'_, PyArray3<T>>> {
+    let array = Array3::from_shape_vec(shape, numbers)
+        .map_err(|error| refused("picture", "pixels of its size", error))?;
+    Ok(PyArray3::from_owned_array(py, array))
+}
