@@ -5,13 +5,16 @@
 
 mod adapter;
 mod bench;
+mod python;
 mod run;
 mod test;
 
 use std::process::ExitCode;
 
 const HELP: &str = "\
-cargo xtask test                 formatting, lints, all tests, packages and documentation
+cargo xtask test                 formatting, lints, all tests, packages, documentation, the Python
+                                 package
+cargo xtask python               of these the Python package alone: its wheel, pytest and mypy
 cargo xtask bench [...]          times the criterion benches, or those that a filter names;
                                  --against COMMIT builds that commit beside and times both in
                                  turn, --rounds N (5) times; samples go to out/bench/samples.csv
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
         Some("setup") => adapter::ensure().map(|_| ()),
         Some("bench") => bench::run(&arguments[1..]),
         Some("test") => test::run(&arguments[1..]),
+        Some("python") => python::test(),
         Some("help" | "--help" | "-h") => {
             run::say(HELP);
             run::metaball(&["--help".to_owned()])

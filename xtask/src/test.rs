@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use crate::adapter::{self, Adapter};
+use crate::python;
 use crate::run::{cargo, quieten, say, succeeds, to_the_end};
 
 /// What users may take from the registry. Before the first release they pack only together: each
@@ -41,6 +42,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
         quieten(&mut command);
         to_the_end(&mut command)?;
     }
+    python::test()?;
     if succeeds("cargo", &["deny", "--version"]) {
         say("── licences, bans and sources");
         to_the_end(cargo().args(["deny", "check", "licenses", "bans", "sources"]))?;

@@ -6,12 +6,12 @@
 mod arrays;
 mod camera;
 mod errors;
-mod file;
 mod image;
 mod light;
 mod options;
 mod particles;
 mod rays;
+mod reading;
 mod surface;
 mod watch;
 
@@ -22,7 +22,8 @@ use pyo3::prelude::*;
 fn _metaball(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<surface::Surface>()?;
-    module.add_function(wrap_pyfunction!(file::read_particles, module)?)?;
+    module.add_function(wrap_pyfunction!(reading::read_particles, module)?)?;
+    module.add_function(wrap_pyfunction!(reading::table_particles, module)?)?;
     module.add_function(wrap_pyfunction!(image::png, module)?)?;
     module.add_function(wrap_pyfunction!(image::save_picture, module)?)?;
     module.add_function(wrap_pyfunction!(image::save_hits, module)?)?;

@@ -56,7 +56,9 @@ impl Light {
             None => None,
             Some("plain") => Some(FloorKind::Plain),
             Some("tiles") => Some(FloorKind::Tiles),
-            Some(other) => return Err(refused("floor", "plain or tiles", format_args!("{other:?}"))),
+            Some(other) => {
+                return Err(refused("floor", "plain or tiles", format_args!("{other:?}")));
+            }
         };
         Ok(LightOptions {
             shadows: self.shadows.unwrap_or_default(),

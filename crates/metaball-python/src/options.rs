@@ -19,9 +19,7 @@ pub(crate) fn picture_named(name: &str) -> PyResult<Picture> {
         "normal" => Ok(Picture::Normal),
         "depth" => Ok(Picture::Depth),
         "color" => Ok(Picture::Color),
-        _ => {
-            Err(refused("picture", "phong, normal, depth or color", format_args!("{name:?}")))
-        }
+        _ => Err(refused("picture", "phong, normal, depth or color", format_args!("{name:?}"))),
     }
 }
 

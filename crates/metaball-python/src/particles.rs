@@ -36,8 +36,10 @@ impl Particles<'_> {
     ) -> Result<Scene, LoadError> {
         let positions = self.centers.points();
         let strengths = self.strength.as_ref().map(NumberArray::numbers);
-        let (shown, support) =
-            (self.radius.as_ref().map(Amount::size), self.support_radius.as_ref().map(Amount::size));
+        let (shown, support) = (
+            self.radius.as_ref().map(Amount::size),
+            self.support_radius.as_ref().map(Amount::size),
+        );
         let colors = self.color.as_ref().map(PyReadonlyArray2::as_array);
         py.detach(|| {
             let strengths = strengths.map(Numbers::to_slice);

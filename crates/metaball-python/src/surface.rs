@@ -14,11 +14,11 @@ use rayon::prelude::*;
 use crate::arrays::{NumberArray, PointArray};
 use crate::camera::Camera;
 use crate::errors::{raised, refused};
-use crate::file::rows;
 use crate::light::Light;
 use crate::options::{Corners, Plane, clip, picture_named};
 use crate::particles::Particles;
 use crate::rays::{Columns, HitArrays, Rays, each_batch, numbers};
+use crate::reading::rows;
 use crate::watch::Watch;
 
 /// A scene with its tree and a camera that shows it.
@@ -27,6 +27,9 @@ pub(crate) struct Surface {
     surface: metaball::Surface,
     camera: SceneCamera,
 }
+
+/// Three coordinates, a tuple in Python.
+type Point = (f64, f64, f64);
 
 /// A picture: pixels, hits, and linear light where there is any.
 type PictureArrays<'py> =
@@ -61,7 +64,7 @@ impl Surface {
     }
 
     /// Its balls in the scene's coordinates, as the arguments of `metaball.Particles`, and the scene's origin.
-    fn state<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, [f64; 3])> {
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Point)> {
         let scene = self.surface.scene();
         let arguments = PyDict::new(py);
         let centers = scene.supports().iter().flat_map(|ball| ball.center.to_array()).collect();
@@ -75,7 +78,7 @@ impl Surface {
             let channels = colors.iter().copied().flat_map(Color::to_srgb).collect();
             arguments.set_item("color", rows(py, channels)?)?;
         }
-        Ok((arguments, scene.origin().to_array()))
+        Ok((arguments, scene.origin().into()))
     }
 
     #[getter]
@@ -100,21 +103,22 @@ impl Surface {
 
     /// Corners of the box around all supports, in the particles' coordinates; `None` where there is no ball.
     #[getter]
-    fn bounds(&self) -> Option<([f64; 3], [f64; 3])> {
+    fn bounds(&self) -> Option<(Point, Point)> {
         let scene = self.surface.scene();
         let (bounds, origin) = (scene.bounds(), scene.origin());
-        let corner = |corner: glam::Vec3| (corner.as_dvec3() + origin).to_array();
+        let corner = |corner: glam::Vec3| (corner.as_dvec3() + origin).into();
         (!bounds.is_empty()).then(|| (corner(bounds.min), corner(bounds.max)))
     }
 
     /// Eye, point looked at, up and field of view of the camera that shows it.
     #[getter]
-    fn camera(&self) -> ([f64; 3], [f64; 3], [f32; 3], f32) {
+    fn camera(&self) -> (Point, Point, Point, f32) {
         let (camera, origin) = (&self.camera, self.surface.scene().origin());
         let eye = camera.eye().as_dvec3();
         let ahead = eye + camera.forward().as_dvec3();
         let degrees = 2.0 * camera.half_height().atan().to_degrees();
-        ((eye + origin).to_array(), (ahead + origin).to_array(), camera.up().to_array(), degrees)
+        let up = camera.up().as_dvec3();
+        ((eye + origin).into(), (ahead + origin).into(), up.into(), degrees)
     }
 
     fn __len__(&self) -> usize {

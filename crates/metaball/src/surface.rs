@@ -125,10 +125,8 @@ mod tests {
             let stopped = surface.draw(&bench.camera, &options, |_| ControlFlow::Break(()));
             assert!(matches!(stopped, Err(Error::Interrupted)));
         }
-        let fitted = DrawOptions {
-            method: Method::Tree(fbvh::Options::fitted()),
-            ..DrawOptions::default()
-        };
+        let fitted =
+            DrawOptions { method: Method::Tree(fbvh::Options::fitted()), ..DrawOptions::default() };
         let refused = surface.draw(&bench.camera, &fitted, |_| ControlFlow::Continue(()));
         let refused = refused.expect_err("another method").to_string();
         assert!(refused.starts_with("method: needed fbvh-certified"), "{refused}");

@@ -131,8 +131,10 @@ impl<P: Positions> Balls<'_, P> {
             let exact = position - origin;
             (exact - exact.as_vec3().as_dvec3()).abs().max_element()
         };
+        // A radius that is none is refused by the scene.
         let too_far = |index: &usize| {
-            moved(self.positions.at(*index)) > PART * f64::from(self.radii.get(*index))
+            let radius = f64::from(self.radii.get(*index));
+            radius > 0.0 && moved(self.positions.at(*index)) > PART * radius
         };
         let Some(index) = (0..self.positions.count()).into_par_iter().find_first(too_far) else {
             return Ok(());

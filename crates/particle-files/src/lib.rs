@@ -8,6 +8,7 @@
 //! - [`read()`] stops at the particles: positions with sizes and colours, before a kernel and a threshold
 //!   make a surface of them. [`parse()`] does the same to bytes that are no file.
 //! - A [`Formula`] makes the balls of SPH or of another program of particles, where one is asked for.
+//! - [`particles_of()`] begins with a table that may come from elsewhere.
 //! - [`read_table()`] stops before anything is decided: positions and columns as the file has them.
 //! - [`Sequence`] has a scene for each frame.
 //!
@@ -99,7 +100,7 @@ pub use numbered_path::NumberedPath;
 pub use options::{ReadOptions, Substance};
 pub use overrides::{Overrides, kernel_named};
 pub use particles::{DEFAULT_KERNEL, DEFAULT_THRESHOLD, Particles, Sizes};
-pub use read::{parse, read, read_table};
+pub use read::{parse, particles_of, read, read_table};
 pub use select::{Rule, Selection};
 pub use sequence::Sequence;
 pub use table::{Column, Lines, Table, Values, Words};

@@ -2,11 +2,11 @@
 
 use glam::{DMat3, DVec3, I64Vec3};
 
+use crate::balls::Radii;
 use crate::cell::Cell;
 use crate::error::Flaw;
 use crate::notes::counted;
 use crate::options::ReadOptions;
-use crate::balls::Radii;
 use crate::particles::{Particles, Sizes};
 
 /// The particles of as many cells as are asked for, one cell now; wrapped into it where it is to go on

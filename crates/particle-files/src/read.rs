@@ -37,6 +37,17 @@ pub fn parse(
     Content::new(name, file::unpacked(name, bytes.into())?)?.particles(options)
 }
 
+/// The particles of a table, which need not come from a file: [`read`] after the table.
+///
+/// # Errors
+/// Names the column, what was needed and what was found.
+pub fn particles_of(table: Table, options: &ReadOptions) -> Result<Particles, LoadError> {
+    options.check()?;
+    let mut notes = Notes::default();
+    notes.read(table.counted());
+    Ok(periodic::repeated(interpret::particles(table, options, notes)?, options)?)
+}
+
 /// The particles of a frame that are kept, with all columns, before anything is decided; `-` is standard
 /// input.
 ///

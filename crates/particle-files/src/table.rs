@@ -6,7 +6,9 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use crate::cell::Cell;
+use crate::error::{Flaw, LoadError};
 use crate::notes::counted;
+use crate::roles::Role;
 use crate::units::Unit;
 
 /// One frame of a file.
@@ -60,6 +62,37 @@ pub struct Words {
 }
 
 impl Table {
+    /// The table of columns of one length, as data frames have them; those of coordinates, known by their names,
+    /// become the positions.
+    ///
+    /// # Errors
+    /// When a column has another length than the first, or an axis has no column of numbers.
+    pub fn of_columns(columns: Vec<Column>) -> Result<Self, LoadError> {
+        let count = columns.first().map_or(0, |column| column.values.len());
+        if let Some(other) = columns.iter().find(|column| column.values.len() != count) {
+            let needed = format!("{count} values as {:?} has", columns[0].name);
+            return Err(Flaw::needed(&needed, other.values.len()).at_key(&other.name).into());
+        }
+        let mut axes: [Option<Vec<f64>>; 3] = [None, None, None];
+        let mut others = Vec::new();
+        for column in columns {
+            let axis = Role::of(&column.name).and_then(Role::axis);
+            match (axis, column.values) {
+                (Some(axis), Values::Numbers(numbers)) if axes[axis].is_none() => {
+                    axes[axis] = Some(numbers);
+                }
+                (_, values) => others.push(Column { name: column.name, values }),
+            }
+        }
+        let [Some(x), Some(y), Some(z)] = axes else {
+            let names: Vec<&str> = others.iter().map(|column| column.name.as_str()).collect();
+            let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            return Err(Flaw::needed("columns x, y and z of numbers", found).into());
+        };
+        let positions = x.into_iter().zip(y).zip(z).map(|((x, y), z)| DVec3::new(x, y, z));
+        Ok(Self { positions: positions.collect(), columns: others, ..Self::default() })
+    }
+
     /// Number of particles.
     pub fn len(&self) -> usize {
         self.positions.len()
@@ -275,6 +308,27 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_of_coordinates_become_positions() {
+        let column = |name: &str, numbers: &[f64]| Column {
+            name: name.to_owned(),
+            values: Values::Numbers(numbers.to_vec()),
+        };
+        let (x, y, z) =
+            (column("Pos X", &[1.0, 2.0]), column("y", &[3.0; 2]), column("z", &[4.0; 2]));
+        let all = vec![column("mass", &[5.0; 2]), z.clone(), x.clone(), y.clone()];
+        let table = Table::of_columns(all).expect("three axes");
+        assert_eq!(table.positions, [DVec3::new(1.0, 3.0, 4.0), DVec3::new(2.0, 3.0, 4.0)]);
+        assert_eq!(table.columns, [column("mass", &[5.0; 2])]);
+        let refused = |columns| Table::of_columns(columns).expect_err("refused").to_string();
+        assert_eq!(
+            refused(vec![x.clone(), z.clone()]),
+            "needed columns x, y and z of numbers, found none"
+        );
+        let longer = refused(vec![x, y, z, column("mass", &[1.0; 3])]);
+        assert!(longer.contains("mass") && longer.ends_with("found 3"), "{longer}");
+    }
 
     #[test]
     fn lines_without_gaps_are_one_number() {

@@ -89,6 +89,13 @@ class Surface:
 def read_particles(
     path: str | PathLike[str], reading: dict[str, Any]
 ) -> tuple[dict[str, Any], list[tuple[str, str]]]: ...
+def table_particles(
+    positions: Floats | None,
+    columns: list[tuple[str, npt.NDArray[np.float64] | list[str]]],
+    edges: list[list[float]] | None,
+    atoms: bool,
+    reading: dict[str, Any],
+) -> tuple[dict[str, Any], list[tuple[str, str]]]: ...
 def png(pixels: npt.NDArray[np.uint8]) -> bytes: ...
 def save_picture(path: str | PathLike[str], pixels: npt.NDArray[np.uint8]) -> None: ...
 def save_hits(

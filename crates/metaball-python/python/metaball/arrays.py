@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -27,3 +27,8 @@ def points(name: str, values: npt.ArrayLike) -> Floats:
     if array.ndim == 0 or array.shape[-1] != 3:
         raise ValueError(f"{name}: needed an array of shape (..., 3), found {array.shape}")
     return array if array.ndim == 2 else array.reshape(-1, 3)
+
+
+def spread(array: Floats, shape: tuple[int, ...]) -> Floats:
+    """The array as if it had another shape, not copied."""
+    return cast(Floats, np.broadcast_to(array, shape))

@@ -49,14 +49,15 @@ class Hits:
     @property
     def is_hit(self) -> npt.NDArray[np.bool_]:
         """Where there is a surface point: a hit, or a start inside; shape (...)."""
-        return (self.verdicts == Verdict.HIT) | (self.verdicts == Verdict.INSIDE)
+        return np.isin(self.verdicts, (Verdict.HIT, Verdict.INSIDE))
 
     def points(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The points that the rays hit, in the particles' coordinates; NaN for misses; shape (..., 3)."""
         t = np.where(self.is_hit, self.t.astype(np.float64), np.nan)[..., np.newaxis]
         along = floats("directions", directions).astype(np.float64)
         unit = along / np.linalg.norm(along, axis=-1, keepdims=True)
-        return floats("origins", origins) + t * unit
+        at: npt.NDArray[np.float64] = floats("origins", origins) + t * unit
+        return at
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the hits of a picture, of shape (height, width), as `.exr` or `.npy`.

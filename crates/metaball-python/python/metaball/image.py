@@ -34,7 +34,7 @@ class Image:
         return self.pixels
 
     def __array__(
-        self, dtype: npt.DTypeLike = None, copy: bool | None = None
+        self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[np.generic]:
         if copy:
             return np.array(self.pixels, dtype=dtype)

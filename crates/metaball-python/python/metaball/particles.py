@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _metaball
 from .arrays import Floats, floats, points
+from .tables import table_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -119,12 +120,50 @@ class Particles:
         OSError
             When the file cannot be read.
         """
-        arguments, notes = _metaball.read_particles(path, named("option", options, ReadOptions))
+        keywords = named("option", options, ReadOptions)
+        return cls._read(f"{path}: ", *_metaball.read_particles(path, keywords))
+
+    @classmethod
+    def of(cls, thing: object, **options: Unpack[ReadOptions]) -> Particles:
+        """The particles of an object of another package, taken as a file with the same columns would be.
+
+        Parameters
+        ----------
+        thing
+            An MDAnalysis AtomGroup or Universe, ASE Atoms, a PyVista PolyData, a pandas or Polars frame,
+            a mapping of columns, or a structured NumPy array. Atoms get the radii and colours of their
+            elements; else columns `radius`, `support_radius`, `strength`, `red`, `green` and `blue` are
+            theirs.
+        options
+            As for `read`, as far as they are not about a file.
+
+        Raises
+        ------
+        TypeError
+            When the object is of another kind.
+        ValueError
+            When its columns cannot be used: names them.
+        """
+        table = table_of(thing)
+        arguments, notes = _metaball.table_particles(
+            table.positions,
+            table.columns,
+            table.edges,
+            table.atoms,
+            named("option", options, ReadOptions),
+        )
+        return cls._read("", arguments, notes)
+
+    @classmethod
+    def _read(
+        cls, source: str, arguments: dict[str, Any], notes: list[tuple[str, str]]
+    ) -> Particles:
+        """What a reader has made, with what it says."""
         particles = cls(**arguments)
         particles.notes = tuple(text for _, text in notes)
         for kind, text in notes:
             if kind != "read":
-                warnings.warn(f"{path}: {text}", ReaderWarning, stacklevel=2)
+                warnings.warn(f"{source}{text}", ReaderWarning, stacklevel=3)
         return particles
 
     def __len__(self) -> int:
@@ -134,16 +173,13 @@ class Particles:
         return f"<metaball.Particles: {len(self)}>"
 
 
-def named(
-    what: str, given: ReadOptions | object, known: type[object]
-) -> dict[str, object]:
+def named(what: str, given: Mapping[str, object], known: type[object]) -> dict[str, object]:
     """The keywords by their names, `None` for those left out."""
-    all_names = known.__annotations__
-    keywords = dict(given)  # type: ignore[call-overload]
-    for name in keywords:
-        if name not in all_names:
-            raise TypeError(f"{name}: needed an {what} of {', '.join(all_names)}")
-    return {**dict.fromkeys(all_names), **keywords}
+    names = known.__annotations__
+    for name in given:
+        if name not in names:
+            raise TypeError(f"{name}: needed an {what} of {', '.join(names)}")
+    return {**dict.fromkeys(names), **given}
 
 
 def _amount(name: str, values: npt.ArrayLike | None, count: int) -> Floats | float | None:

@@ -35,7 +35,7 @@ def bar(progress: Progress, total: int, unit: str) -> Iterator[ProgressBar | Non
 def tqdm() -> Callable[..., ProgressBar]:
     """The bar that suits where this runs."""
     try:
-        from tqdm.auto import tqdm
+        from tqdm.auto import tqdm  # type: ignore[import-untyped]
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
             "progress: needed the package tqdm (pip install tqdm), or what makes a bar"

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _metaball
-from .arrays import Floats, floats, points
+from .arrays import Floats, floats, points, spread
 from .camera import Camera, Point
 from .hits import Hits
 from .image import Image
@@ -306,11 +306,11 @@ def _rays(
             f"{ways.shape}, t_min {ends[0].shape}, t_max {ends[1].shape}"
         ) from error
     if starts.ndim > 1:
-        starts = np.broadcast_to(starts, (*shape, 3))
-    least, greatest = (end if end.ndim == 0 else np.broadcast_to(end, shape) for end in ends)
+        starts = spread(starts, (*shape, 3))
+    least, greatest = (end if end.ndim == 0 else spread(end, shape) for end in ends)
     flat = (
         starts.reshape(-1, 3),
-        np.broadcast_to(ways, (*shape, 3)).reshape(-1, 3),
+        spread(ways, (*shape, 3)).reshape(-1, 3),
         least.reshape(-1),
         greatest.reshape(-1),
     )

@@ -1,15 +1,20 @@
-//! Particles of files.
+//! Particles of files, and of tables that other packages hold.
 
 use std::path::PathBuf;
 
-use metaball::{ReadOptions, Rule, Selection};
+use glam::DVec3;
+use metaball::{Cell, ReadOptions, Rule, Selection, Unit};
 use metaball_core::Color;
 use numpy::ndarray::Array2;
-use numpy::{PyArray1, PyArray2};
-use particle_files::{LoadError, NoteKind, Particles, Sizes, read};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use particle_files::{
+    Column, LoadError, NoteKind, Particles, Positions, Sizes, Table, Values, Words, particles_of,
+    read,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arrays::PointArray;
 use crate::errors::{raised, refused};
 
 /// The keywords of reading, `metaball.ReadOptions`; what is left out is `None`.
@@ -62,7 +67,10 @@ impl Reading {
             model: self.model,
             columns: self.columns,
             topology: self.topology,
-            selection: Selection { keep: Rules::parsed(self.keep)?, drop: Rules::parsed(self.drop)? },
+            selection: Selection {
+                keep: Rules::parsed(self.keep)?,
+                drop: Rules::parsed(self.drop)?,
+            },
             color_by: self.color_by.map(|text| text.parse()).transpose()?,
             repeat: self.repeat,
             ..ReadOptions::default()
@@ -70,16 +78,68 @@ impl Reading {
     }
 }
 
-/// The particles of a file: the arguments of `metaball.Particles`, and the notes as pairs of kind and text.
+/// The arguments of `metaball.Particles`, and the reader's notes as pairs of kind and text.
+type Read<'py> = (Bound<'py, PyDict>, Vec<(&'static str, String)>);
+
+/// The particles of a file.
 #[pyfunction]
-pub(crate) fn read_particles<'py>(
-    py: Python<'py>,
+pub(crate) fn read_particles(
+    py: Python<'_>,
     path: PathBuf,
     reading: Reading,
-) -> PyResult<(Bound<'py, PyDict>, Vec<(&'static str, String)>)> {
-    let particles = py
-        .detach(|| reading.options().and_then(|options| read(&path, &options)))
-        .map_err(raised)?;
+) -> PyResult<Read<'_>> {
+    let read = py.detach(|| reading.options().and_then(|options| read(&path, &options)));
+    arguments(py, read.map_err(raised)?)
+}
+
+/// A column of a table, and whether it has words.
+#[derive(FromPyObject)]
+pub(crate) enum ColumnValues<'py> {
+    #[pyo3(transparent, annotation = "numbers")]
+    Numbers(PyReadonlyArray1<'py, f64>),
+    #[pyo3(transparent, annotation = "a sequence of str")]
+    Words(Vec<String>),
+}
+
+/// The particles of a table: of columns alone, or of positions and columns.
+#[pyfunction]
+pub(crate) fn table_particles<'py>(
+    py: Python<'py>,
+    positions: Option<PointArray<'py>>,
+    columns: Vec<(String, ColumnValues<'py>)>,
+    edges: Option<[[f64; 3]; 3]>,
+    atoms: bool,
+    reading: Reading,
+) -> PyResult<Read<'py>> {
+    let columns = columns.into_iter().map(|(name, values)| {
+        let values = match values {
+            ColumnValues::Numbers(numbers) => {
+                Values::Numbers(numbers.as_array().iter().copied().collect())
+            }
+            ColumnValues::Words(words) => {
+                Values::Words(words.iter().map(String::as_str).collect::<Words>())
+            }
+        };
+        Column { name, values }
+    });
+    let columns = columns.collect();
+    let table = match positions {
+        None => Table::of_columns(columns).map_err(raised)?,
+        Some(positions) => {
+            let points = positions.points();
+            let positions = (0..points.count()).map(|index| points.at(index)).collect();
+            Table { positions, columns, ..Table::default() }
+        }
+    };
+    let cell = edges.and_then(|edges| Cell::new(edges.map(DVec3::from_array)));
+    let unit = atoms.then_some(Unit::Angstrom);
+    let table = Table { cell, atoms, unit, ..table };
+    let particles =
+        py.detach(|| reading.options().and_then(|options| particles_of(table, &options)));
+    arguments(py, particles.map_err(raised)?)
+}
+
+fn arguments(py: Python<'_>, particles: Particles) -> PyResult<Read<'_>> {
     let Particles { positions, sizes, strengths, colors, notes, .. } = particles;
     let arguments = PyDict::new(py);
     let coordinates = positions.iter().flat_map(|position| position.to_array()).collect();
