@@ -17,7 +17,6 @@ pub mod auto;
 pub mod canvas;
 pub mod comparison;
 pub mod configuration;
-pub mod fronts;
 pub mod heat;
 pub mod imported;
 pub mod judge;
@@ -32,6 +31,7 @@ pub mod record_csv;
 pub mod reference;
 pub mod renderer;
 pub mod score;
-pub mod stats;
 pub mod subset;
 pub mod technique;
+
+pub use scoring::{fronts, stats};

@@ -5,7 +5,7 @@ use metaball::{DrawOptions, Drawing};
 use metaball_core::reference::Oracle;
 use metaball_core::{Camera as SceneCamera, Color, Scene};
 use numpy::ndarray::Array3;
-use numpy::{PyArray1, PyArray2, PyArray3};
+use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use particle_files::{Positions, kernel_named, own_camera};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -13,7 +13,9 @@ use rayon::prelude::*;
 
 use crate::arrays::{NumberArray, PointArray};
 use crate::camera::Camera;
+use crate::comparison::{ComparisonArrays, TruthArrays, comparison, truth_arrays, truths};
 use crate::errors::{raised, refused};
+use crate::image::hits;
 use crate::light::Light;
 use crate::options::{Corners, Plane, clip, picture_named};
 use crate::particles::Particles;
@@ -250,6 +252,47 @@ impl Surface {
             Ok(verdicts)
         });
         Ok(PyArray1::from_vec(py, watch.outcome(traced)?))
+    }
+
+    /// The truth along rays, by the reference.
+    fn truth<'py>(
+        &self,
+        py: Python<'py>,
+        origins: PointArray<'py>,
+        directions: PointArray<'py>,
+        t_min: NumberArray<'py>,
+        t_max: NumberArray<'py>,
+        bar: Option<Py<PyAny>>,
+    ) -> PyResult<TruthArrays<'py>> {
+        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let mut watch = Watch::new(bar);
+        let found = py.detach(|| truths(&self.oracle().0, &rays, |done| watch.goes_on(done)));
+        truth_arrays(py, &watch.outcome(found)?)
+    }
+
+    /// Hits, as columns, against the truth along the same rays.
+    #[expect(clippy::too_many_arguments, reason = "rays and their hits")]
+    fn compare<'py>(
+        &self,
+        py: Python<'py>,
+        origins: PointArray<'py>,
+        directions: PointArray<'py>,
+        t_min: NumberArray<'py>,
+        t_max: NumberArray<'py>,
+        t: PyReadonlyArray1<'py, f32>,
+        normals: PyReadonlyArray2<'py, f32>,
+        verdicts: PyReadonlyArray1<'py, u8>,
+        bar: Option<Py<PyAny>>,
+    ) -> PyResult<ComparisonArrays<'py>> {
+        let hits = hits(&t, &normals, &verdicts)?;
+        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        if hits.len() != rays.count() {
+            let needed = format!("those of {} rays", rays.count());
+            return Err(refused("hits", &needed, hits.len()));
+        }
+        let mut watch = Watch::new(bar);
+        let found = py.detach(|| truths(&self.oracle().0, &rays, |done| watch.goes_on(done)));
+        comparison(py, &watch.outcome(found)?, &hits)
     }
 
     /// The field at points, f64.

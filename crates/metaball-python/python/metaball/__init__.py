@@ -14,6 +14,7 @@ strength and k the kernel; the surface is where the field equals the threshold T
 from ._metaball import __version__
 from .arrays import Floats
 from .camera import Camera
+from .comparison import Comparison, Finding, Score, Truth
 from .hits import Hits, Verdict
 from .image import Image
 from .particles import Particles, ReadOptions, ReaderWarning
@@ -22,6 +23,8 @@ from .surface import LightOptions, Surface
 
 __all__ = [
     "Camera",
+    "Comparison",
+    "Finding",
     "Floats",
     "Hits",
     "Image",
@@ -30,7 +33,9 @@ __all__ = [
     "ProgressBar",
     "ReadOptions",
     "ReaderWarning",
+    "Score",
     "Surface",
+    "Truth",
     "Verdict",
     "__version__",
 ]

@@ -83,6 +83,36 @@ class Surface:
     def any_hit(
         self, origins: Floats, directions: Floats, t_min: Floats, t_max: Floats
     ) -> npt.NDArray[np.uint8]: ...
+    def truth(
+        self,
+        origins: Floats,
+        directions: Floats,
+        t_min: Floats,
+        t_max: Floats,
+        bar: ProgressBar | None,
+    ) -> tuple[
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.uint8],
+        npt.NDArray[np.float64],
+    ]: ...
+    def compare(
+        self,
+        origins: Floats,
+        directions: Floats,
+        t_min: Floats,
+        t_max: Floats,
+        t: npt.NDArray[np.float32],
+        normals: npt.NDArray[np.float32],
+        verdicts: npt.NDArray[np.uint8],
+        bar: ProgressBar | None,
+    ) -> tuple[
+        npt.NDArray[np.uint8],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.bool_],
+        npt.NDArray[np.bool_],
+        dict[str, Any],
+    ]: ...
     def field(self, points: Floats) -> npt.NDArray[np.float64]: ...
     def gradient(self, points: Floats) -> npt.NDArray[np.float64]: ...
 

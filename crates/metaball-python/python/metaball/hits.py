@@ -37,6 +37,47 @@ class Hits:
     """Unit vectors out of the solid, against the field's gradient; 0 for a miss; shape (..., 3)."""
     verdicts: npt.NDArray[np.uint8]
     """Numbers of `Verdict`; shape (...)."""
+    has_normals: bool = True
+    """Whether the normals are known; where they are not, all are 0."""
+
+    @classmethod
+    def of(
+        cls,
+        t: npt.ArrayLike,
+        normals: npt.ArrayLike | None = None,
+        verdicts: npt.ArrayLike | None = None,
+    ) -> Hits:
+        """Hits of any program, to be compared or saved.
+
+        Parameters
+        ----------
+        t
+            Distance along the unit ray, shape (...): +inf for a miss, NaN where the program could not tell.
+        normals
+            Unit normals out of the solid, shape (..., 3), or none.
+        verdicts
+            Numbers of `Verdict`, shape (...); where left out the distances say them.
+
+        Raises
+        ------
+        ValueError
+            When shapes do not fit one another.
+        """
+        distances = floats("t", t).astype(np.float32)
+        shape = distances.shape
+        if verdicts is None:
+            of_misses = np.where(np.isinf(distances), Verdict.MISS, Verdict.HIT)
+            numbers = np.where(np.isnan(distances), Verdict.UNDECIDED, of_misses)
+        else:
+            numbers = np.asarray(verdicts)
+        vectors = np.zeros((*shape, 3)) if normals is None else floats("normals", normals)
+        if numbers.shape != shape or vectors.shape != (*shape, 3):
+            raise ValueError(
+                f"hits: needed verdicts of shape {shape} and normals of {(*shape, 3)}, found "
+                f"{numbers.shape} and {vectors.shape}"
+            )
+        narrow = vectors.astype(np.float32)
+        return cls(distances, narrow, numbers.astype(np.uint8), normals is not None)
 
     def __iter__(self) -> Iterator[npt.NDArray[np.float32] | npt.NDArray[np.uint8]]:
         return iter((self.t, self.normals, self.verdicts))
@@ -74,8 +115,11 @@ class Hits:
         if len(self.shape) != 2:
             raise ValueError(f"hits: needed those of a picture, (height, width), found {self.shape}")
         height, width = self.shape
-        columns = (self.t.ravel(), self.normals.reshape(-1, 3), self.verdicts.ravel())
-        _metaball.save_hits(path, (width, height), *columns)
+        _metaball.save_hits(path, (width, height), *self._columns())
+
+    def _columns(self) -> _metaball.Columns:
+        """One after the other."""
+        return self.t.ravel(), self.normals.reshape(-1, 3), self.verdicts.ravel()
 
     @classmethod
     def _of(cls, columns: _metaball.Columns, shape: tuple[int, ...]) -> Hits:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _metaball
 from .arrays import Floats, floats, points, spread
 from .camera import Camera, Point
+from .comparison import Comparison, Score, Truth
 from .hits import Hits
 from .image import Image
 from .particles import Particles, named
@@ -146,7 +147,6 @@ class Surface:
         progress: Progress = False,
     ) -> Hits:
         """What the rays through the middles of a picture's pixels meet, shape (height, width)."""
-        width, height = size
         return self.trace(*self.rays(camera, size), progress=progress)
 
     def rays(
@@ -223,6 +223,79 @@ class Surface:
         """
         arrays, shape = _rays(origins, directions, t_min, t_max)
         return self._native.any_hit(*arrays).reshape(shape)
+
+    def truth(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        *,
+        t_min: npt.ArrayLike = 0.0,
+        t_max: npt.ArrayLike = np.inf,
+        progress: Progress = False,
+    ) -> Truth:
+        """Where rays first enter the solid, by the exact reference: slow, in float64, without the tree.
+
+        Parameters are those of `trace`.
+        """
+        arrays, shape = _rays(origins, directions, t_min, t_max)
+        with bar(progress, len(arrays[1]), "ray") as shown:
+            t, normals, verdicts, margins = self._native.truth(*arrays, shown)
+        return Truth(
+            t.reshape(shape),
+            normals.reshape(*shape, 3),
+            verdicts.reshape(shape),
+            margins.reshape(shape),
+        )
+
+    def compare(
+        self,
+        hits: Hits,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        *,
+        t_min: npt.ArrayLike = 0.0,
+        t_max: npt.ArrayLike = np.inf,
+        progress: Progress = False,
+    ) -> Comparison:
+        """Hits of any program against the exact reference, ray by ray.
+
+        Parameters
+        ----------
+        hits
+            What was found along the rays, of their shape: `Hits.of` makes them of arrays.
+        origins, directions, t_min, t_max, progress
+            The rays, as for `trace`.
+
+        Raises
+        ------
+        ValueError
+            When there is not one hit for each ray.
+        """
+        arrays, shape = _rays(origins, directions, t_min, t_max)
+        if hits.shape != shape:
+            raise ValueError(f"hits: needed the shape of the rays, {shape}, found {hits.shape}")
+        columns = hits._columns()
+        with bar(progress, len(arrays[1]), "ray") as shown:
+            findings, errors, ambiguous, wrong, numbers = self._native.compare(
+                *arrays, *columns, shown
+            )
+        if not hits.has_normals:
+            numbers["normal_degrees"] = None
+        each = (findings.reshape(shape), errors.reshape(shape), ambiguous.reshape(shape))
+        return Comparison(*each, wrong.reshape(shape), Score(**numbers))
+
+    def score(
+        self,
+        hits: Hits,
+        camera: Camera | None = None,
+        *,
+        progress: Progress = False,
+    ) -> Score:
+        """Hits of a picture, of shape (height, width), against the exact reference in every pixel."""
+        if len(hits.shape) != 2:
+            raise ValueError(f"hits: needed those of a picture, (height, width), found {hits.shape}")
+        height, width = hits.shape
+        return self.compare(hits, *self.rays(camera, (width, height)), progress=progress).score
 
     def field(self, at: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The field at points of shape (..., 3), in units of the strengths: shape (...), float64."""
