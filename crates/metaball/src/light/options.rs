@@ -120,6 +120,7 @@ impl LightOptions {
     /// # Errors
     /// When an option makes no sense or a file is not readable: names it.
     pub(crate) fn lighting(&self, camera: &Camera, scene: &Scene) -> Result<Lighting, Error> {
+        self.go_together()?;
         let samples = if self.refraction.is_some() { 64 } else { 1 };
         Ok(Lighting {
             effects: self.effects(camera, scene)?,
@@ -128,6 +129,48 @@ impl LightOptions {
             depth_cue: self.depth_cue.map(|cue| at_least(0.0, "depth_cue", cue)).transpose()?,
             stops: at_least(f32::MIN, "exposure", self.exposure.unwrap_or_default())?,
         })
+    }
+
+    /// Refuses options that would do nothing: beside others that take their place, or without those that they
+    /// are about.
+    fn go_together(&self) -> Result<(), Error> {
+        let layers = self.refraction.is_some() || self.opacity.is_some();
+        for (option, is_asked, about, is_there) in [
+            ("lamp_size", self.lamp_size.is_some(), "shadows", self.shadows),
+            (
+                "occlusion_reach",
+                self.occlusion_reach.is_some(),
+                "ambient_occlusion",
+                self.ambient_occlusion.is_some(),
+            ),
+            (
+                "reflectivity",
+                self.reflectivity.is_some(),
+                "reflections",
+                self.reflections.is_some(),
+            ),
+            ("absorption", self.absorption.is_some(), "refraction", self.refraction.is_some()),
+            ("bounces", self.bounces.is_some(), "refraction or opacity", layers),
+        ] {
+            require(is_there || !is_asked, option, format!("{about} beside it"), "none")?;
+        }
+        for (option, is_asked) in [
+            ("shadows", self.shadows),
+            ("ambient_occlusion", self.ambient_occlusion.is_some()),
+            ("reflections", self.reflections.is_some()),
+            ("cel", self.cel.is_some()),
+        ] {
+            let is_alone = self.refraction.is_none() || !is_asked;
+            require(is_alone, option, "no refraction beside it", "some")?;
+        }
+        for (option, count) in [
+            ("ambient_occlusion", self.ambient_occlusion),
+            ("cel", self.cel),
+            ("samples", self.samples),
+        ] {
+            require(count != Some(0), option, "a number above 0", "0")?;
+        }
+        Ok(())
     }
 
     fn effects(&self, camera: &Camera, scene: &Scene) -> Result<Effects, Error> {
@@ -330,6 +373,19 @@ mod tests {
             ..none()
         });
         numbers("exposure", &[nan], &|stops| LightOptions { exposure: Some(stops), ..none() });
+        for (option, light) in [
+            ("lamp_size", LightOptions { lamp_size: Some(3.0), ..none() }),
+            ("occlusion_reach", LightOptions { occlusion_reach: Some(2.0), ..none() }),
+            ("reflectivity", LightOptions { reflectivity: Some(0.5), ..none() }),
+            ("absorption", LightOptions { absorption: Some(Vec3::X), ..none() }),
+            ("bounces", LightOptions { bounces: Some(4), ..mirror() }),
+            ("reflections", LightOptions { refraction: Some(1.33), ..mirror() }),
+            ("shadows", LightOptions { refraction: Some(1.33), shadows: true, ..none() }),
+            ("samples", LightOptions { samples: Some(0), ..none() }),
+        ] {
+            let message = message(light);
+            assert!(message.starts_with(&format!("{option}: needed")), "{message}");
+        }
         let nowhere = LightOptions { environment: Some("nowhere.hdr".into()), ..none() };
         assert_eq!(message(nowhere), "cannot open nowhere.hdr");
     }
