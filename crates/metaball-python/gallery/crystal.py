@@ -16,7 +16,7 @@ def main(folder: Path) -> None:
         warnings.simplefilter("ignore", metaball.ReaderWarning)
         particles = metaball.Particles.of(salt, repeat=(2, 2, 2), radius_scale=0.8)
     surface = metaball.Surface(particles)
-    image = surface.render(size=(320, 240), shadows=True, clip=[((0.0, 0.0, 1.0), 8.0)], samples=2)
+    image = surface.render(size=(480, 360), shadows=True, clip=[((0.0, 0.0, 1.0), 8.0)], samples=8)
     image.save(folder / "crystal.png")
 
 

@@ -1,4 +1,4 @@
-"""A frame of an SPH simulation in HDF5, in its own density: strengths are m/ρ over the kernel's volume."""
+"""A frame of an SPH simulation in HDF5, with its own kernel: the field is the share of space that is filled."""
 
 import sys
 from pathlib import Path
@@ -27,16 +27,16 @@ def main(folder: Path) -> None:
     simulate(folder / "frame.h5")
     with h5py.File(folder / "frame.h5") as file:
         gas = file["PartType0"]
-        support = 2 * gas["SmoothingLength"][:]
-        volume = 32 * np.pi / 105 * support**3  # of the quartic: its integral over space
+        h = gas["SmoothingLength"][:]
         particles = metaball.Particles(
             gas["Coordinates"][:],
-            support_radius=support,
-            strength=gas["Masses"][:] / gas["Density"][:] / volume,
+            support_radius=2 * h,
+            # Our kernels are 1 in the middle, where the cubic spline of SPH is 1/(π h³).
+            strength=gas["Masses"][:] / gas["Density"][:] / (np.pi * h**3),
             color=(0.3, 0.55, 0.9),
         )
-    # The field is the share of space that is filled: 1 inside, 1/2 where the fluid ends.
-    surface = metaball.Surface(particles, kernel="quartic", threshold=0.5)
+    # The field is 1 inside, and 1/2 where the fluid ends.
+    surface = metaball.Surface(particles, kernel="cubic-spline", threshold=0.5)
     print("in the pool:", surface.field([0.0, -0.8, 0.0]))
     surface.render(size=(320, 240), shadows=True, samples=2).save(folder / "sph.png")
 

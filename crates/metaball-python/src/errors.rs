@@ -7,7 +7,6 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// An error of the library: an `OSError` of its kind where a file is the reason, else a `ValueError`.
-#[expect(clippy::needless_pass_by_value, reason = "the shape that map_err wants")]
 pub(crate) fn raised(error: impl Error + 'static) -> PyErr {
     let text = sentence(&error);
     match kind_of(&error) {

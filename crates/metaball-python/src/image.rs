@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use metaball_core::{Hit, Image, Verdict};
-use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use metaball_core::Image;
+use numpy::PyReadonlyArray3;
 use picture_files::{encode_png, write_hits, write_light, write_picture};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::errors::{raised, refused};
+use crate::rays::HitColumns;
 
 /// The image of an array of shape (height, width, 4).
 fn image(pixels: &PyReadonlyArray3<'_, u8>) -> PyResult<Image> {
@@ -27,10 +29,10 @@ fn image(pixels: &PyReadonlyArray3<'_, u8>) -> PyResult<Image> {
 pub(crate) fn png<'py>(
     py: Python<'py>,
     pixels: PyReadonlyArray3<'py, u8>,
-) -> PyResult<Bound<'py, pyo3::types::PyBytes>> {
+) -> PyResult<Bound<'py, PyBytes>> {
     let image = image(&pixels)?;
     let bytes = py.detach(|| encode_png(&image)).map_err(raised)?;
-    Ok(pyo3::types::PyBytes::new(py, &bytes))
+    Ok(PyBytes::new(py, &bytes))
 }
 
 /// Writes a picture: `.png`, `.jpg` or `.jpeg`.
@@ -50,11 +52,9 @@ pub(crate) fn save_hits(
     py: Python<'_>,
     path: PathBuf,
     size: (u32, u32),
-    t: PyReadonlyArray1<'_, f32>,
-    normals: PyReadonlyArray2<'_, f32>,
-    verdicts: PyReadonlyArray1<'_, u8>,
+    hits: HitColumns<'_>,
 ) -> PyResult<()> {
-    let hits = hits(&t, &normals, &verdicts)?;
+    let hits = hits.hits()?;
     py.detach(|| write_hits(&path, size.0, size.1, &hits)).map_err(raised)
 }
 
@@ -74,29 +74,4 @@ pub(crate) fn save_light(
     let pixels = light.rows().into_iter();
     let pixels: Vec<_> = pixels.map(|pixel| Vec3::new(pixel[0], pixel[1], pixel[2])).collect();
     py.detach(|| write_light(&path, width, height, &pixels)).map_err(raised)
-}
-
-/// Hits of columns.
-pub(crate) fn hits(
-    t: &PyReadonlyArray1<'_, f32>,
-    normals: &PyReadonlyArray2<'_, f32>,
-    verdicts: &PyReadonlyArray1<'_, u8>,
-) -> PyResult<Vec<Hit>> {
-    let (t, normals, verdicts) = (t.as_array(), normals.as_array(), verdicts.as_array());
-    if normals.dim() != (t.len(), 3) || verdicts.len() != t.len() {
-        let found = format!("{:?} and {}", normals.dim(), verdicts.len());
-        return Err(refused("hits", "normals (n, 3) and verdicts (n,) of the same n as t", found));
-    }
-    let hit = |index: usize| {
-        let verdict = match verdicts[index] {
-            0 => return Ok(Hit::MISS),
-            1 => Verdict::Hit,
-            2 => Verdict::Inside,
-            3 => Verdict::Undecided,
-            other => return Err(refused("verdicts", "numbers from 0 to 3", other)),
-        };
-        let normal = Vec3::from_array([0, 1, 2].map(|axis| normals[[index, axis]]));
-        Ok(Hit { verdict, fallback: false, t: t[index], normal })
-    };
-    (0..t.len()).map(hit).collect()
 }

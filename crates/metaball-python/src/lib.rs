@@ -2,6 +2,7 @@
 //! while something is computed. What people call is Python, in `python/metaball`.
 
 #![allow(unsafe_code, reason = "PyO3's macros expand to it; none is written here")]
+#![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
 mod arrays;
 mod camera;

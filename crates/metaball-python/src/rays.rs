@@ -5,27 +5,49 @@ use std::ops::ControlFlow;
 use glam::{DVec3, Vec3};
 use metaball_core::{Hit, NO_LIMIT, Ray, Verdict};
 use numpy::ndarray::Array2;
-use numpy::{PyArray1, PyArray2};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use particle_files::Positions;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::arrays::{Numbers, Points};
+use crate::arrays::{NumberArray, Numbers, PointArray, Points};
 use crate::errors::refused;
 
 /// Rays that are made and traced together: enough for all threads, few enough to stay near.
 pub(crate) const TOGETHER: usize = 1 << 17;
 
+/// The arrays of rays: origins, directions, least and greatest t; all but the directions one for all, or one for
+/// each.
+#[derive(FromPyObject)]
+pub(crate) struct RayArrays<'py>(
+    PointArray<'py>,
+    PointArray<'py>,
+    NumberArray<'py>,
+    NumberArray<'py>,
+);
+
+impl RayArrays<'_> {
+    /// The rays, for threads that do not hold the interpreter.
+    pub(crate) fn rays(&self, scene_origin: DVec3) -> Rays<'_> {
+        let Self(origins, directions, t_min, t_max) = self;
+        Rays {
+            origins: origins.points(),
+            directions: directions.points(),
+            t_min: t_min.numbers(),
+            t_max: t_max.numbers(),
+            scene_origin,
+        }
+    }
+}
+
 /// Rays of arrays, relative to a scene's origin.
 #[derive(Clone, Copy)]
 pub(crate) struct Rays<'a> {
-    /// One for all, or one for each.
-    pub(crate) origins: Points<'a>,
-    pub(crate) directions: Points<'a>,
-    /// One for all, or one for each.
-    pub(crate) t_min: Numbers<'a>,
-    pub(crate) t_max: Numbers<'a>,
-    pub(crate) scene_origin: DVec3,
+    origins: Points<'a>,
+    directions: Points<'a>,
+    t_min: Numbers<'a>,
+    t_max: Numbers<'a>,
+    scene_origin: DVec3,
 }
 
 impl Rays<'_> {
@@ -91,6 +113,45 @@ fn unit(direction: DVec3) -> Vec3 {
 /// What rays meet, as arrays.
 pub(crate) type HitArrays<'py> =
     (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray2<f32>>, Bound<'py, PyArray1<u8>>);
+
+/// Hits of anyone, as arrays: t, normals and verdicts.
+#[derive(FromPyObject)]
+pub(crate) struct HitColumns<'py>(
+    PyReadonlyArray1<'py, f32>,
+    PyReadonlyArray2<'py, f32>,
+    PyReadonlyArray1<'py, u8>,
+);
+
+impl HitColumns<'_> {
+    /// The hits.
+    ///
+    /// # Errors
+    /// When the arrays do not fit one another, or a verdict is none.
+    pub(crate) fn hits(&self) -> PyResult<Vec<Hit>> {
+        let Self(t, normals, verdicts) = self;
+        let (t, normals, verdicts) = (t.as_array(), normals.as_array(), verdicts.as_array());
+        if normals.dim() != (t.len(), 3) || verdicts.len() != t.len() {
+            let found = format!("{:?} and {}", normals.dim(), verdicts.len());
+            return Err(refused(
+                "hits",
+                "normals (n, 3) and verdicts (n,) of the same n as t",
+                found,
+            ));
+        }
+        let hit = |index: usize| {
+            let verdict = match verdicts[index] {
+                0 => return Ok(Hit::MISS),
+                1 => Verdict::Hit,
+                2 => Verdict::Inside,
+                3 => Verdict::Undecided,
+                other => return Err(refused("verdicts", "numbers from 0 to 3", other)),
+            };
+            let normal = Vec3::from_array([0, 1, 2].map(|axis| normals[[index, axis]]));
+            Ok(Hit { verdict, fallback: false, t: t[index], normal })
+        };
+        (0..t.len()).map(hit).collect()
+    }
+}
 
 /// What rays meet, column by column.
 #[derive(Default)]

@@ -142,7 +142,7 @@ pub(crate) fn table_particles<'py>(
 fn arguments(py: Python<'_>, particles: Particles) -> PyResult<Read<'_>> {
     let Particles { positions, sizes, strengths, colors, notes, .. } = particles;
     let arguments = PyDict::new(py);
-    let coordinates = positions.iter().flat_map(|position| position.to_array()).collect();
+    let coordinates = positions.iter().flat_map(DVec3::to_array).collect();
     arguments.set_item("centers", rows(py, coordinates)?)?;
     match sizes {
         Sizes::Support(radii) => {

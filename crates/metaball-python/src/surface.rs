@@ -1,25 +1,24 @@
 //! The surface of a scene: its tree, and what is asked of it.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use metaball::{DrawOptions, Drawing};
 use metaball_core::reference::Oracle;
-use metaball_core::{Camera as SceneCamera, Color, Scene};
+use metaball_core::{Camera as SceneCamera, Color, Kernel, Scene};
 use numpy::ndarray::Array3;
-use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
-use particle_files::{Positions, kernel_named, own_camera};
+use numpy::{PyArray1, PyArray2, PyArray3};
+use particle_files::{Positions, own_camera};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::arrays::{NumberArray, PointArray};
+use crate::arrays::PointArray;
 use crate::camera::Camera;
 use crate::comparison::{ComparisonArrays, TruthArrays, comparison, truth_arrays, truths};
 use crate::errors::{raised, refused};
-use crate::image::hits;
 use crate::light::Light;
 use crate::options::{Corners, Plane, clip, picture_named};
 use crate::particles::Particles;
-use crate::rays::{Columns, HitArrays, Rays, each_batch, numbers};
+use crate::rays::{Columns, HitArrays, HitColumns, RayArrays, each_batch, numbers};
 use crate::reading::rows;
 use crate::watch::Watch;
 
@@ -32,6 +31,9 @@ pub(crate) struct Surface {
 
 /// Three coordinates, a tuple in Python.
 type Point = (f64, f64, f64);
+
+/// Rays of a picture: the eye, shape (1, 3), and directions (n, 3).
+type ViewRays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f32>>);
 
 /// A picture: pixels, hits, and linear light where there is any.
 type PictureArrays<'py> =
@@ -46,7 +48,7 @@ impl Surface {
         kernel: &str,
         threshold: f32,
     ) -> PyResult<Self> {
-        let kernel = kernel_named(kernel, None).map_err(raised)?;
+        let kernel = kernel.parse::<Kernel>().map_err(raised)?;
         let scene = particles.scene(py, kernel, threshold).map_err(raised)?;
         py.detach(|| Self::of(scene))
     }
@@ -60,7 +62,7 @@ impl Surface {
         threshold: f32,
         origin: [f64; 3],
     ) -> PyResult<Self> {
-        let kernel = kernel_named(kernel, None).map_err(raised)?;
+        let kernel = kernel.parse::<Kernel>().map_err(raised)?;
         let scene = particles.scene(py, kernel, threshold).map_err(raised)?;
         py.detach(|| Self::of(scene.with_origin(DVec3::from_array(origin))))
     }
@@ -108,7 +110,7 @@ impl Surface {
     fn bounds(&self) -> Option<(Point, Point)> {
         let scene = self.surface.scene();
         let (bounds, origin) = (scene.bounds(), scene.origin());
-        let corner = |corner: glam::Vec3| (corner.as_dvec3() + origin).into();
+        let corner = |corner: Vec3| (corner.as_dvec3() + origin).into();
         (!bounds.is_empty()).then(|| (corner(bounds.min), corner(bounds.max)))
     }
 
@@ -157,20 +159,20 @@ impl Surface {
         let (width, height) = (image.width as usize, image.height as usize);
         let columns = py.detach(|| Columns::of(&hits));
         let light = film.map(|film| {
-            let channels = film.light.iter().flat_map(|light| light.to_array()).collect();
+            let channels = film.light.iter().flat_map(Vec3::to_array).collect();
             array3(py, (height, width, 3), channels)
         });
         let pixels = array3(py, (height, width, 4), image.rgba)?;
         Ok((pixels, columns.into_arrays(py)?, light.transpose()?))
     }
 
-    /// Rays of a camera: origins (1, 3) and directions (n, 3), row by row from the top left.
+    /// Rays of a camera, row by row from the top left.
     fn rays<'py>(
         &self,
         py: Python<'py>,
         camera: Option<Camera>,
         size: (u32, u32),
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f32>>)> {
+    ) -> PyResult<ViewRays<'py>> {
         let scene = self.surface.scene();
         let camera = Camera::viewpoint(camera).camera(&self.camera, scene).map_err(raised)?;
         let view = metaball::View::new(camera, size.0, size.1).map_err(raised)?;
@@ -184,13 +186,10 @@ impl Surface {
     fn trace<'py>(
         &self,
         py: Python<'py>,
-        origins: PointArray<'py>,
-        directions: PointArray<'py>,
-        t_min: NumberArray<'py>,
-        t_max: NumberArray<'py>,
+        rays: RayArrays<'py>,
         bar: Option<Py<PyAny>>,
     ) -> PyResult<HitArrays<'py>> {
-        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let rays = rays.rays(self.surface.scene().origin());
         let mut watch = Watch::new(bar);
         let traced = py.detach(|| {
             let tracer = self.surface.tracer();
@@ -206,15 +205,8 @@ impl Surface {
     }
 
     /// Where rays that start inside leave the solid.
-    fn exit<'py>(
-        &self,
-        py: Python<'py>,
-        origins: PointArray<'py>,
-        directions: PointArray<'py>,
-        t_min: NumberArray<'py>,
-        t_max: NumberArray<'py>,
-    ) -> PyResult<HitArrays<'py>> {
-        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+    fn exit<'py>(&self, py: Python<'py>, rays: RayArrays<'py>) -> PyResult<HitArrays<'py>> {
+        let rays = rays.rays(self.surface.scene().origin());
         let mut watch = Watch::new(None);
         let traced = py.detach(|| {
             let tracer = self.surface.tracer();
@@ -234,12 +226,9 @@ impl Surface {
     fn any_hit<'py>(
         &self,
         py: Python<'py>,
-        origins: PointArray<'py>,
-        directions: PointArray<'py>,
-        t_min: NumberArray<'py>,
-        t_max: NumberArray<'py>,
+        rays: RayArrays<'py>,
     ) -> PyResult<Bound<'py, PyArray1<u8>>> {
-        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let rays = rays.rays(self.surface.scene().origin());
         let mut watch = Watch::new(None);
         let traced = py.detach(|| {
             let tracer = self.surface.tracer();
@@ -258,34 +247,25 @@ impl Surface {
     fn truth<'py>(
         &self,
         py: Python<'py>,
-        origins: PointArray<'py>,
-        directions: PointArray<'py>,
-        t_min: NumberArray<'py>,
-        t_max: NumberArray<'py>,
+        rays: RayArrays<'py>,
         bar: Option<Py<PyAny>>,
     ) -> PyResult<TruthArrays<'py>> {
-        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let rays = rays.rays(self.surface.scene().origin());
         let mut watch = Watch::new(bar);
         let found = py.detach(|| truths(&self.oracle().0, &rays, |done| watch.goes_on(done)));
         truth_arrays(py, &watch.outcome(found)?)
     }
 
     /// Hits, as columns, against the truth along the same rays.
-    #[expect(clippy::too_many_arguments, reason = "rays and their hits")]
     fn compare<'py>(
         &self,
         py: Python<'py>,
-        origins: PointArray<'py>,
-        directions: PointArray<'py>,
-        t_min: NumberArray<'py>,
-        t_max: NumberArray<'py>,
-        t: PyReadonlyArray1<'py, f32>,
-        normals: PyReadonlyArray2<'py, f32>,
-        verdicts: PyReadonlyArray1<'py, u8>,
+        rays: RayArrays<'py>,
+        hits: HitColumns<'py>,
         bar: Option<Py<PyAny>>,
     ) -> PyResult<ComparisonArrays<'py>> {
-        let hits = hits(&t, &normals, &verdicts)?;
-        let rays = self.rays_of(&origins, &directions, &t_min, &t_max);
+        let hits = hits.hits()?;
+        let rays = rays.rays(self.surface.scene().origin());
         if hits.len() != rays.count() {
             let needed = format!("those of {} rays", rays.count());
             return Err(refused("hits", &needed, hits.len()));
@@ -331,22 +311,6 @@ impl Surface {
         let (camera, _) = own_camera(&scene);
         let surface = metaball::Surface::build(scene).map_err(raised)?;
         Ok(Self { surface, camera })
-    }
-
-    fn rays_of<'a>(
-        &self,
-        origins: &'a PointArray<'_>,
-        directions: &'a PointArray<'_>,
-        t_min: &'a NumberArray<'_>,
-        t_max: &'a NumberArray<'_>,
-    ) -> Rays<'a> {
-        Rays {
-            origins: origins.points(),
-            directions: directions.points(),
-            t_min: t_min.numbers(),
-            t_max: t_max.numbers(),
-            scene_origin: self.surface.scene().origin(),
-        }
     }
 
     /// The reference, and the origin of its coordinates.

@@ -119,7 +119,8 @@ def test_kernels_are_the_librarys() -> None:
     particles = Particles(CENTERS, support_radius=0.3)
     assert Surface(particles, kernel="quartic").kernel == "power-2"
     assert Surface(particles, kernel="wyvill").kernel == "wyvill"
-    with pytest.raises(ValueError, match='kernel: needed power, .* found "gauss"'):
+    assert Surface(particles, kernel="cubic-spline").kernel == "cubic-spline"
+    with pytest.raises(ValueError, match='kernel: needed power-1 to power-8 .* found "gauss"'):
         Surface(particles, kernel="gauss")
     with pytest.raises(ValueError, match="threshold: needed a finite number above 0"):
         Surface(particles, threshold=0.0)

@@ -123,3 +123,49 @@ impl DrawOptions {
         matches!(self.picture, Picture::Work(_))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use bench_scenes::{Overrides, load};
+    use metaball_core::gpu::AdapterChoice;
+
+    use super::*;
+    use crate::{Backend, draw};
+
+    /// A row is longer than any adapter dispatches.
+    #[test]
+    fn what_does_not_fit_the_adapter_is_left_to_the_cpu() {
+        if Gpu::for_test().is_none() {
+            return;
+        }
+        let bench = load("two-merging", &Overrides::default()).expect("known");
+        let backend = Backend::Adapter(AdapterChoice::Environment);
+        let long = DrawOptions { size: (600_000, 1), backend, ..DrawOptions::default() };
+        let drawing = draw(&bench.scene, &bench.camera, &long).expect("drawn");
+        let reason = drawing.summary.computed_by;
+        assert!(
+            reason.starts_with("the CPU, ") && reason.ends_with("found 600000 × 1"),
+            "{reason}"
+        );
+        let on_cpu = DrawOptions { backend: Backend::Cpu, ..long.clone() };
+        let wanted = draw(&bench.scene, &bench.camera, &on_cpu).expect("drawn");
+        assert!(drawing.image == wanted.image && drawing.hits == wanted.hits);
+
+        let refused = |options: &DrawOptions| {
+            draw(&bench.scene, &bench.camera, options).expect_err("too large").to_string()
+        };
+        let spheres = DrawOptions { picture: Picture::Spheres, ..long.clone() };
+        let error = refused(&spheres);
+        assert!(error.ends_with("found 600000 × 1; a smaller size may fit"), "{error}");
+        #[cfg(feature = "harness")]
+        {
+            let kanamori = harness::methods::find("kanamori").expect("listed");
+            let method = Method::Listed(kanamori.into());
+            let error = refused(&DrawOptions { method, ..long });
+            assert!(
+                error.ends_with("the CPU draws any with bvh, fbvh or fbvh-certified"),
+                "{error}"
+            );
+        }
+    }
+}

@@ -69,14 +69,25 @@ impl Radii<'_> {
             }
             (Self::All(radius), Some(strengths)) => {
                 let shown = vec![*radius; strengths.len()];
-                Ok(supports_of_shown(&shown, Some(strengths), kernel, threshold)
-                    .map_err(|(_, flaw)| flaw)?)
+                Ok(supports_of_shown(&shown, Some(strengths), kernel, threshold)?)
             }
             (Self::Each(shown), strengths) => {
-                Ok(supports_of_shown(shown, strengths, kernel, threshold)
-                    .map_err(|(_, flaw)| flaw)?)
+                Ok(supports_of_shown(shown, strengths, kernel, threshold)?)
             }
         }
+    }
+}
+
+/// What is wrong with balls, and with which, if it is one.
+#[derive(Debug)]
+pub(crate) struct BallFlaw {
+    pub(crate) index: Option<usize>,
+    pub(crate) problem: String,
+}
+
+impl From<BallFlaw> for LoadError {
+    fn from(flaw: BallFlaw) -> Self {
+        Flaw::new(flaw.problem).into()
     }
 }
 
@@ -98,18 +109,17 @@ impl<P: Positions> Balls<'_, P> {
     /// # Errors
     /// Names the first ball that is refused, or the threshold.
     pub fn scene(&self, kernel: Kernel, threshold: f32) -> Result<Scene, LoadError> {
-        Ok(self.scene_at(None, &[], kernel, threshold).map_err(|(_, flaw)| flaw)?)
+        Ok(self.scene_at(None, &[], kernel, threshold)?)
     }
 
-    /// The same with a given origin, and with images of some of them elsewhere. The flaw comes with the index of
-    /// the ball, if it is one's.
+    /// The same with a given origin, and with images of some of them elsewhere.
     pub(crate) fn scene_at(
         &self,
         origin: Option<DVec3>,
         images: &[(usize, DVec3)],
         kernel: Kernel,
         threshold: f32,
-    ) -> Result<Scene, (Option<usize>, Flaw)> {
+    ) -> Result<Scene, BallFlaw> {
         let origin = origin.unwrap_or_else(|| origin_of(self.positions, &self.radii));
         self.check_resolution(origin)?;
         let ball = |(index, position): (usize, DVec3)| Metaball {
@@ -120,12 +130,12 @@ impl<P: Positions> Balls<'_, P> {
         let own = (0..self.positions.count()).map(|index| (index, self.positions.at(index)));
         let balls = own.chain(images.iter().copied()).map(ball);
         let scene = Scene::new(balls, kernel, threshold)
-            .map_err(|error| (ball_of(&error), Flaw::new(error.to_string())))?;
+            .map_err(|error| BallFlaw { index: ball_of(&error), problem: error.to_string() })?;
         Ok(scene.with_origin(origin))
     }
 
     /// Refuses balls that f32 moves by more than a small part of their radius.
-    fn check_resolution(&self, origin: DVec3) -> Result<(), (Option<usize>, Flaw)> {
+    fn check_resolution(&self, origin: DVec3) -> Result<(), BallFlaw> {
         const PART: f64 = 1.0 / 64.0;
         let moved = |position: DVec3| {
             let exact = position - origin;
@@ -148,25 +158,27 @@ impl<P: Positions> Balls<'_, P> {
                 (found - origin).length()
             ),
         );
-        Err((Some(index), flaw.or("leave it out with --drop, or scale its radius")))
+        let flaw = flaw.or("leave it out with --drop, or scale its radius");
+        Err(BallFlaw { index: Some(index), problem: flaw.problem })
     }
 }
 
-/// The support radii of balls that alone show at these; the flaw comes with the index of the ball.
+/// The support radii of balls that alone show at these.
 pub(crate) fn supports_of_shown(
     shown: &[f32],
     strengths: Option<&[f32]>,
     kernel: Kernel,
     threshold: f32,
-) -> Result<Radii<'static>, (usize, Flaw)> {
+) -> Result<Radii<'static>, BallFlaw> {
     // R over the radius that shows, for one strength after the other: most are the same.
     let mut last = None;
     let mut radii = Vec::with_capacity(shown.len());
     for (index, radius) in shown.iter().enumerate() {
         let strength = strengths.map_or(1.0, |strengths| strengths[index]);
+        let flaw = |flaw: Flaw| BallFlaw { index: Some(index), problem: flaw.problem };
         let factor = match last {
             Some((of, factor)) if of == strength => factor,
-            _ => support_over_shown(kernel, threshold, strength).map_err(|flaw| (index, flaw))?,
+            _ => support_over_shown(kernel, threshold, strength).map_err(flaw)?,
         };
         last = Some((strength, factor));
         radii.push(radius * factor);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use metaball_core::{Color, Kernel, Scene};
 
-use crate::balls::{Balls, Radii, supports_of_shown};
+use crate::balls::{BallFlaw, Balls, Radii, supports_of_shown};
 use crate::cell::Cell;
 use crate::coloring::Legend;
 use crate::error::{Flaw, LoadError};
@@ -100,7 +100,7 @@ impl Particles {
             Balls { positions: &self.positions, radii, strengths: self.strengths.as_deref() };
         let scene = balls
             .scene_at(origin, &images, kernel, threshold)
-            .map_err(|(index, flaw)| self.flaw_at(index, flaw))?;
+            .map_err(|flaw| self.flaw_of(flaw))?;
         let Some(mut colors) = self.colors else { return Ok(scene) };
         colors.extend(images.iter().map(|(index, _)| colors[*index]).collect::<Vec<_>>());
         Ok(scene.with_colors(colors)?)
@@ -118,14 +118,16 @@ impl Particles {
             }
             Sizes::Shown(shown) => {
                 supports_of_shown(shown, self.strengths.as_deref(), kernel, threshold)
-                    .map_err(|(index, flaw)| self.flaw_at(Some(index), flaw))
+                    .map_err(|flaw| self.flaw_of(flaw))
             }
         }
     }
 
-    /// The flaw of a particle.
-    pub(crate) fn flaw_at(&self, index: Option<usize>, mut flaw: Flaw) -> LoadError {
-        flaw.location.line = index.and_then(|index| self.lines.get(index));
+    /// The flaw of a particle, with its line.
+    fn flaw_of(&self, flaw: BallFlaw) -> LoadError {
+        let line = flaw.index.and_then(|index| self.lines.get(index));
+        let mut flaw = Flaw::new(flaw.problem);
+        flaw.location.line = line;
         flaw.location.file = self.file.clone();
         flaw.into()
     }

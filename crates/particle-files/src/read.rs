@@ -43,9 +43,10 @@ pub fn parse(
 /// Names the column, what was needed and what was found.
 pub fn particles_of(table: Table, options: &ReadOptions) -> Result<Particles, LoadError> {
     options.check()?;
+    let formula = options.formula.formula()?;
     let mut notes = Notes::default();
     notes.read(table.counted());
-    Ok(periodic::repeated(interpret::particles(table, options, notes)?, options)?)
+    Ok(periodic::repeated(interpret::particles(table, options, formula, notes)?, options)?)
 }
 
 /// The particles of a frame that are kept, with all columns, before anything is decided; `-` is standard

@@ -11,6 +11,7 @@ from .progress import ProgressBar
 
 __version__: str
 
+Rays = tuple[Floats, Floats, Floats, Floats]
 Columns = tuple[npt.NDArray[np.float32], npt.NDArray[np.float32], npt.NDArray[np.uint8]]
 Point = tuple[float, float, float]
 
@@ -69,26 +70,12 @@ class Surface:
     def rays(
         self, camera: CameraParts | None, size: tuple[int, int]
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float32]]: ...
-    def trace(
-        self,
-        origins: Floats,
-        directions: Floats,
-        t_min: Floats,
-        t_max: Floats,
-        bar: ProgressBar | None,
-    ) -> Columns: ...
-    def exit(
-        self, origins: Floats, directions: Floats, t_min: Floats, t_max: Floats
-    ) -> Columns: ...
-    def any_hit(
-        self, origins: Floats, directions: Floats, t_min: Floats, t_max: Floats
-    ) -> npt.NDArray[np.uint8]: ...
+    def trace(self, rays: Rays, bar: ProgressBar | None) -> Columns: ...
+    def exit(self, rays: Rays) -> Columns: ...
+    def any_hit(self, rays: Rays) -> npt.NDArray[np.uint8]: ...
     def truth(
         self,
-        origins: Floats,
-        directions: Floats,
-        t_min: Floats,
-        t_max: Floats,
+        rays: Rays,
         bar: ProgressBar | None,
     ) -> tuple[
         npt.NDArray[np.float64],
@@ -98,13 +85,8 @@ class Surface:
     ]: ...
     def compare(
         self,
-        origins: Floats,
-        directions: Floats,
-        t_min: Floats,
-        t_max: Floats,
-        t: npt.NDArray[np.float32],
-        normals: npt.NDArray[np.float32],
-        verdicts: npt.NDArray[np.uint8],
+        rays: Rays,
+        hits: Columns,
         bar: ProgressBar | None,
     ) -> tuple[
         npt.NDArray[np.uint8],
@@ -128,11 +110,5 @@ def table_particles(
 ) -> tuple[dict[str, Any], list[tuple[str, str]]]: ...
 def png(pixels: npt.NDArray[np.uint8]) -> bytes: ...
 def save_picture(path: str | PathLike[str], pixels: npt.NDArray[np.uint8]) -> None: ...
-def save_hits(
-    path: str | PathLike[str],
-    size: tuple[int, int],
-    t: npt.NDArray[np.float32],
-    normals: npt.NDArray[np.float32],
-    verdicts: npt.NDArray[np.uint8],
-) -> None: ...
+def save_hits(path: str | PathLike[str], size: tuple[int, int], hits: Columns) -> None: ...
 def save_light(path: str | PathLike[str], light: npt.NDArray[np.float32]) -> None: ...

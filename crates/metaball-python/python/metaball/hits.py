@@ -115,7 +115,7 @@ class Hits:
         if len(self.shape) != 2:
             raise ValueError(f"hits: needed those of a picture, (height, width), found {self.shape}")
         height, width = self.shape
-        _metaball.save_hits(path, (width, height), *self._columns())
+        _metaball.save_hits(path, (width, height), self._columns())
 
     def _columns(self) -> _metaball.Columns:
         """One after the other."""

@@ -75,7 +75,8 @@ class Surface:
     particles
         The particles. Nothing of them is copied but into the surface's own balls, 16 bytes each.
     kernel
-        The falloff k: `quartic`, `power-1` to `power-8`, `wyvill` or `perlin`.
+        The falloff k, by the names of the command line: `quartic`, `wyvill`, `cubic-spline`, `wendland-c2`
+        and others, which the error for a name that is none lists.
     threshold
         T > 0, the field on the surface, in units of the strengths.
 
@@ -191,7 +192,7 @@ class Surface:
         """
         arrays, shape = _rays(origins, directions, t_min, t_max)
         with bar(progress, len(arrays[1]), "ray") as shown:
-            return Hits._of(self._native.trace(*arrays, shown), shape)
+            return Hits._of(self._native.trace(arrays, shown), shape)
 
     def exit(
         self,
@@ -207,7 +208,7 @@ class Surface:
         `t_min`. `Verdict.MISS` is a ray that ends inside. Parameters are those of `trace`.
         """
         arrays, shape = _rays(origins, directions, t_min, t_max)
-        return Hits._of(self._native.exit(*arrays), shape)
+        return Hits._of(self._native.exit(arrays), shape)
 
     def any_hit(
         self,
@@ -222,7 +223,7 @@ class Surface:
         `INSIDE` where the ray starts in it, `HIT` where it reaches it. Parameters are those of `trace`.
         """
         arrays, shape = _rays(origins, directions, t_min, t_max)
-        return self._native.any_hit(*arrays).reshape(shape)
+        return self._native.any_hit(arrays).reshape(shape)
 
     def truth(
         self,
@@ -239,7 +240,7 @@ class Surface:
         """
         arrays, shape = _rays(origins, directions, t_min, t_max)
         with bar(progress, len(arrays[1]), "ray") as shown:
-            t, normals, verdicts, margins = self._native.truth(*arrays, shown)
+            t, normals, verdicts, margins = self._native.truth(arrays, shown)
         return Truth(
             t.reshape(shape),
             normals.reshape(*shape, 3),
@@ -274,10 +275,9 @@ class Surface:
         arrays, shape = _rays(origins, directions, t_min, t_max)
         if hits.shape != shape:
             raise ValueError(f"hits: needed the shape of the rays, {shape}, found {hits.shape}")
-        columns = hits._columns()
         with bar(progress, len(arrays[1]), "ray") as shown:
             findings, errors, ambiguous, wrong, numbers = self._native.compare(
-                *arrays, *columns, shown
+                arrays, hits._columns(), shown
             )
         if not hits.has_normals:
             numbers["normal_degrees"] = None
@@ -362,7 +362,7 @@ def _restored(
 
 def _rays(
     origins: npt.ArrayLike, directions: npt.ArrayLike, t_min: npt.ArrayLike, t_max: npt.ArrayLike
-) -> tuple[tuple[Floats, Floats, Floats, Floats], tuple[int, ...]]:
+) -> tuple[_metaball.Rays, tuple[int, ...]]:
     """Rays as flat arrays, what is one for all as one; and the shape of what they meet."""
     starts, ways = floats("origins", origins), floats("directions", directions)
     ends = floats("t_min", t_min), floats("t_max", t_max)
