@@ -157,7 +157,7 @@ impl HitColumns<'_> {
 #[derive(Default)]
 pub(crate) struct Columns {
     t: Vec<f32>,
-    normals: Vec<f32>,
+    normals: Vec<[f32; 3]>,
     verdicts: Vec<u8>,
 }
 
@@ -171,19 +171,19 @@ impl Columns {
     pub(crate) fn with_capacity(count: usize) -> Self {
         Self {
             t: Vec::with_capacity(count),
-            normals: Vec::with_capacity(3 * count),
+            normals: Vec::with_capacity(count),
             verdicts: Vec::with_capacity(count),
         }
     }
 
     pub(crate) fn append(&mut self, hits: &[Hit]) {
         self.t.extend(hits.iter().map(|hit| hit.t));
-        self.normals.extend(hits.iter().flat_map(|hit| hit.normal.to_array()));
+        self.normals.extend(hits.iter().map(|hit| hit.normal.to_array()));
         self.verdicts.extend(hits.iter().map(|hit| hit.verdict as u8));
     }
 
     pub(crate) fn into_arrays(self, py: Python<'_>) -> PyResult<HitArrays<'_>> {
-        let normals = Array2::from_shape_vec((self.t.len(), 3), self.normals)
+        let normals = Array2::from_shape_vec((self.t.len(), 3), self.normals.into_flattened())
             .map_err(|error| refused("normals", "three for each ray", error))?;
         Ok((
             PyArray1::from_vec(py, self.t),
