@@ -25,6 +25,7 @@
 //!   [`Drawing`]: the image, and distance, normal and verdict of every ray.
 //! - [`draw_to_files`] draws it to files band by band, so that it may be of any size, and goes on with one
 //!   that was interrupted. It writes over none of its own [inputs](Outputs::inputs), which [`inputs()`] finds.
+//! - A [`Model`] is a scene that is built once and drawn again and again, as a window does.
 //! - [`animate()`] draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
 //!   while the structure of the next one is built.
 //!
@@ -47,6 +48,7 @@ mod inputs;
 mod legend;
 mod light;
 mod method;
+mod model;
 mod spool;
 mod summary;
 mod viewpoint;
@@ -69,6 +71,7 @@ pub use metaball_core::{
 #[cfg(feature = "harness")]
 pub use method::Choosing;
 pub use method::Method;
+pub use model::{Model, Shown, Solid};
 pub use particle_files::{
     AnimatedScene, BoxError, Cell, ColorBy, Legend, Loaded, Note, NoteKind, Notes, NumberedPath,
     Overrides, ReadOptions, Rule, Scale, Selection, Sequence, Substance, Unit, inputs, load,

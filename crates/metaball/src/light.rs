@@ -3,5 +3,5 @@
 mod lighting;
 mod options;
 
-pub(crate) use lighting::Lighting;
+pub(crate) use lighting::{DEPTH_CUE_WIDTH, Lighting};
 pub use options::{FloorKind, LightOptions};

@@ -14,7 +14,7 @@ use crate::certain::Certain;
 use crate::summary::{Progress, Stage, asked};
 
 /// Standard deviation of the depth cue's Gaussian, in parts of the picture's height.
-const DEPTH_CUE_WIDTH: f32 = 0.02;
+pub(crate) const DEPTH_CUE_WIDTH: f32 = 0.02;
 
 /// Light for any number of pictures by one camera: what its options ask for, checked and read.
 #[derive(Debug)]
@@ -46,6 +46,11 @@ impl Lighting {
     /// Whether a pixel's light depends on the hits around it.
     pub(crate) fn cues_depth(&self) -> bool {
         self.depth_cue.is_some()
+    }
+
+    /// By how much, if it does.
+    pub(crate) fn depth_cue_strength(&self) -> Option<f32> {
+        self.depth_cue
     }
 
     /// What changes the light of a picture with these distances, if anything does.

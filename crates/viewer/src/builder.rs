@@ -1,0 +1,102 @@
+//! The thread that makes scenes and builds their trees.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::thread;
+
+use metaball::{BoxError, Method, Model, Overrides};
+
+use crate::events::Post;
+use crate::mailbox::Mailbox;
+use crate::subject::{Subject, told};
+
+/// Models that are kept: that of a frame, of the one before and of the one after.
+const KEPT: usize = 3;
+
+/// What is to be built.
+#[derive(Debug, Clone)]
+pub(crate) struct Order {
+    pub(crate) subject: Arc<Subject>,
+    pub(crate) frame: u32,
+    pub(crate) field: Overrides,
+    /// The frame that will most likely be next.
+    pub(crate) next: Option<u32>,
+}
+
+/// What was built.
+#[derive(Debug)]
+pub(crate) struct Built {
+    pub(crate) subject: Arc<Subject>,
+    pub(crate) frame: u32,
+    pub(crate) model: Arc<Model>,
+}
+
+/// Builds on a thread of its own, until it is dropped.
+#[derive(Debug)]
+pub(crate) struct Builder {
+    orders: Arc<Mailbox<Order>>,
+}
+
+impl Builder {
+    /// What is built, or why it cannot be, goes to `post`.
+    pub(crate) fn new(post: Post<Result<Built, String>>) -> Self {
+        let orders = Arc::new(Mailbox::new());
+        let taken: Arc<Mailbox<Order>> = orders.clone();
+        thread::spawn(move || {
+            let mut kept = Kept::default();
+            while let Some(order) = taken.take() {
+                let Order { subject, frame, .. } = order.clone();
+                let model = kept.model(&order, frame);
+                let built = model.map(|model| Built { subject, frame, model });
+                post.send(built.map_err(|error| told(&*error)));
+                if let (Some(next), false) = (order.next, taken.calls()) {
+                    // What is wrong with it is said when it is asked for.
+                    let _ = kept.model(&order, next);
+                }
+            }
+        });
+        Self { orders }
+    }
+
+    /// Builds this next, when what is being built is ready.
+    pub(crate) fn order(&self, order: Order) {
+        self.orders.put(order);
+    }
+}
+
+impl Drop for Builder {
+    fn drop(&mut self) {
+        self.orders.close();
+    }
+}
+
+/// The latest models.
+#[derive(Default)]
+struct Kept(VecDeque<Entry>);
+
+struct Entry {
+    subject: Arc<Subject>,
+    frame: u32,
+    field: Overrides,
+    model: Arc<Model>,
+}
+
+impl Kept {
+    /// The model of a frame, which may be there already.
+    fn model(&mut self, order: &Order, frame: u32) -> Result<Arc<Model>, BoxError> {
+        let Order { subject, field, .. } = order;
+        let is_it = |entry: &Entry| {
+            Arc::ptr_eq(&entry.subject, subject) && entry.frame == frame && entry.field == *field
+        };
+        if let Some(entry) = self.0.iter().find(|entry| is_it(entry)) {
+            return Ok(entry.model.clone());
+        }
+        let scene = field.apply(subject.frame(frame)?)?;
+        let model = Arc::new(Model::new(scene, &Method::default())?);
+        self.0.retain(|entry| Arc::ptr_eq(&entry.subject, subject) && entry.field == *field);
+        self.0.truncate(KEPT - 1);
+        let entry = Entry { subject: subject.clone(), frame, field: *field, model: model.clone() };
+        self.0.push_front(entry);
+        Ok(model)
+    }
+}

@@ -1,0 +1,124 @@
+//! The window: egui's widgets around a [`Viewer`].
+
+mod canvas;
+mod keys;
+mod marks;
+mod notice;
+mod panel;
+mod status;
+
+use std::sync::Arc;
+
+use eframe::egui::{self, CentralPanel, Panel, ViewportBuilder};
+use thiserror::Error;
+
+use self::canvas::Canvas;
+use self::panel::Sections;
+use crate::{Opener, Pick, Start, Viewer, Wake};
+
+/// Why there is no window.
+#[derive(Debug, Error)]
+#[error(
+    "window: needed a display (DISPLAY or WAYLAND_DISPLAY) and OpenGL 2 or later, found {found}; on Debian \
+     and Ubuntu apt-get install libgl1 libegl1 libgl1-mesa-dri brings one without a graphics card, and \
+     render and animate need neither"
+)]
+pub struct WindowError {
+    /// What the system said.
+    found: String,
+}
+
+/// Opens a window, and returns when it is closed. What is read, built and drawn is given up then.
+///
+/// # Errors
+/// When there is no display, or no OpenGL on it.
+pub fn open_window(opener: Arc<dyn Opener>, start: Start) -> Result<(), WindowError> {
+    // Reading begins before there is a window, which takes longer to open.
+    let context = egui::Context::default();
+    let waker = context.clone();
+    let wake: Wake = Arc::new(move || waker.request_repaint());
+    let window = Window::new(Viewer::new(opener, start, &wake));
+    let options = eframe::NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([480.0, 360.0])
+            .with_app_id("metaball"),
+        ..eframe::NativeOptions::default()
+    };
+    let creator = Box::new(|_: &eframe::CreationContext<'_>| Ok(Box::new(window) as Box<_>));
+    eframe::run_native_ext("metaball", options, Some(context), creator)
+        .map_err(|error| WindowError { found: error.to_string() })
+}
+
+/// The widgets, and what they remember.
+pub struct Window {
+    viewer: Viewer,
+    canvas: Canvas,
+    sections: Sections,
+    picks: Vec<Pick>,
+    title: String,
+}
+
+impl Window {
+    /// Around a viewer.
+    pub fn new(viewer: Viewer) -> Self {
+        let (canvas, sections) = (Canvas::default(), Sections::default());
+        Self { viewer, canvas, sections, picks: Vec::new(), title: String::new() }
+    }
+
+    /// What is shown and done.
+    pub fn viewer(&self) -> &Viewer {
+        &self.viewer
+    }
+
+    /// The same, to be told what to do.
+    pub fn viewer_mut(&mut self) -> &mut Viewer {
+        &mut self.viewer
+    }
+
+    /// The points that were picked last, two at most.
+    pub fn picks(&self) -> &[Pick] {
+        &self.picks
+    }
+
+    /// Shows all of it.
+    pub fn show(&mut self, ui: &mut egui::Ui) {
+        self.viewer.hear();
+        self.entitle(ui);
+        keys::obey(ui, &mut self.viewer, self.canvas.id());
+        self.open_dropped(ui);
+        Panel::bottom("status").show(ui, |ui| status::show(ui, &mut self.viewer));
+        Panel::right("panel").default_size(300.0).size_range(240.0..=460.0).show(ui, |ui| {
+            self.sections.show(ui, &mut self.viewer, &mut self.picks);
+        });
+        CentralPanel::no_frame().show(ui, |ui| {
+            self.canvas.show(ui, &mut self.viewer, &mut self.picks);
+            notice::show(ui, &mut self.viewer);
+        });
+    }
+
+    /// Names the window by what it shows.
+    fn entitle(&mut self, ui: &egui::Ui) {
+        let name = self.viewer.subject().map(|subject| subject.name.as_str());
+        let title = name.map_or("metaball".to_owned(), |name| format!("{name} – metaball"));
+        if title != self.title {
+            self.title.clone_from(&title);
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Title(title));
+        }
+    }
+
+    /// Opens a file that was dropped onto the window.
+    fn open_dropped(&mut self, ui: &egui::Ui) {
+        let dropped = ui.input(|input| input.raw.dropped_files.last().cloned());
+        if let Some(file) = dropped {
+            self.picks.clear();
+            self.viewer.open(file.path().display().to_string());
+        }
+    }
+}
+
+impl eframe::App for Window {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
+    }
+}
