@@ -99,3 +99,52 @@ fn subject_that_moves(spec: &str, reading: &ReadOptions, moving: Moving) -> Subj
         content: Content::Moving(Box::new(moving)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use viewer::CommandLine;
+
+    use super::*;
+    use crate::{Cli, Command};
+    use clap::Parser;
+
+    fn started(words: &[String]) -> Start {
+        let Ok(Cli { command: Command::View(view) }) = Cli::try_parse_from(words) else {
+            panic!("a legal command line: {words:?}")
+        };
+        view.start().expect("legal")
+    }
+
+    /// What the window writes as a command line is read as what it shows.
+    #[test]
+    fn command_lines_are_read_as_they_were_meant() {
+        for line in [
+            "metaball view molecule",
+            "metaball view b.xyz --as particles --radius 2 --radius-scale 0.5 --units nm --frame 3 \
+             --model -1 --topology a.pdb --columns x,y,z --keep chain=A --keep water --drop mass=1..2 \
+             --color-by charge=-1..1 --repeat 2,1,1 --periodic --frame-all",
+            "metaball view b.csv --support-radius 0.1 --color 0.2,0.5,1 --kernel wyvill --threshold 0.4 \
+             --eye -1.5,2e-7,3 --look-at 5460000.25,0,-1 --up 0,0.1,1 --fov 33.3 --picture normal \
+             --clip 1,0,0,-0.5 --clip-box -1,-2,-3,1,2,3",
+            "metaball view tornado:4000 --kernel power --exponent 3 --shadows --lamp -1,1,0.3 --lamp 0,1,0 \
+             --lamp-size 7 --ambient-occlusion 4 --occlusion-reach 2.5 --reflections 2 \
+             --reflectivity 0.4 --floor tiles --environment sky.hdr --cel 3 --depth-cue 0.5 --samples 9 \
+             --seed 3 --exposure -1",
+            "metaball view splash --refraction 1.33 --absorption 2,1,0 --bounces 4 --floor plain",
+            "metaball view splash --opacity 0.4",
+        ] {
+            let words: Vec<_> = line.split_whitespace().map(str::to_owned).collect();
+            let wanted = started(&words);
+            let spec = wanted.spec.clone().expect("named");
+            let written = CommandLine::new(&["metaball", "view", &spec])
+                .reading(&wanted.reading)
+                .field(&wanted.field)
+                .viewpoint(&wanted.viewpoint)
+                .picture(wanted.look.picture)
+                .clip(&wanted.look.clip)
+                .light(&wanted.look.light);
+            let found = started(written.words());
+            assert_eq!(format!("{found:?}"), format!("{wanted:?}"), "{written}");
+        }
+    }
+}

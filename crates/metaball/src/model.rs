@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use fbvh::ClippedTracer;
 use glam::Vec3;
-use metaball_core::{Clip, Hit, Image, Picture, Ray, Scene, ValueRange, View};
+use metaball_core::{Aabb, Clip, Hit, Image, Picture, Ray, Scene, ValueRange, View};
 use metaball_light::Film;
 
 use crate::band::{Band, bands};
@@ -39,6 +39,7 @@ const BAND_PIXELS: u32 = 1 << 15;
 #[derive(Debug)]
 pub struct Model {
     scene: Scene,
+    bounds: Aabb,
     method: Method,
     built: Built,
 }
@@ -66,12 +67,22 @@ impl Model {
     /// When the method has no tree on the CPU, or it cannot be built for the scene.
     pub fn new(scene: Scene, method: &Method) -> Result<Self, Error> {
         let built = Built::new(method, &scene)?;
-        Ok(Self { scene, method: method.clone(), built })
+        Ok(Self { bounds: scene.bounds(), scene, method: method.clone(), built })
     }
 
     /// The balls.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The smallest box around all support spheres.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// The method that traces it.
+    pub fn method(&self) -> &Method {
+        &self.method
     }
 
     /// The time that building took.

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::thread;
 
+use fbvh::Options;
 use metaball::{BoxError, Method, Model, Overrides};
 
 use crate::events::Post;
@@ -19,6 +20,7 @@ pub(crate) struct Order {
     pub(crate) subject: Arc<Subject>,
     pub(crate) frame: u32,
     pub(crate) field: Overrides,
+    pub(crate) tree: Options,
     /// The frame that will most likely be next.
     pub(crate) next: Option<u32>,
 }
@@ -78,24 +80,27 @@ struct Entry {
     subject: Arc<Subject>,
     frame: u32,
     field: Overrides,
+    tree: Options,
     model: Arc<Model>,
 }
 
 impl Kept {
     /// The model of a frame, which may be there already.
     fn model(&mut self, order: &Order, frame: u32) -> Result<Arc<Model>, BoxError> {
-        let Order { subject, field, .. } = order;
-        let is_it = |entry: &Entry| {
-            Arc::ptr_eq(&entry.subject, subject) && entry.frame == frame && entry.field == *field
+        let Order { subject, field, tree, .. } = order;
+        let is_like = |entry: &Entry| {
+            Arc::ptr_eq(&entry.subject, subject) && entry.field == *field && entry.tree == *tree
         };
-        if let Some(entry) = self.0.iter().find(|entry| is_it(entry)) {
+        let is_it = |entry: &&Entry| is_like(entry) && entry.frame == frame;
+        if let Some(entry) = self.0.iter().find(is_it) {
             return Ok(entry.model.clone());
         }
         let scene = field.apply(subject.frame(frame)?)?;
-        let model = Arc::new(Model::new(scene, &Method::default())?);
-        self.0.retain(|entry| Arc::ptr_eq(&entry.subject, subject) && entry.field == *field);
+        let model = Arc::new(Model::new(scene, &Method::Tree(*tree))?);
+        self.0.retain(is_like);
         self.0.truncate(KEPT - 1);
-        let entry = Entry { subject: subject.clone(), frame, field: *field, model: model.clone() };
+        let (subject, field, tree) = (subject.clone(), *field, *tree);
+        let entry = Entry { subject, frame, field, tree, model: model.clone() };
         self.0.push_front(entry);
         Ok(model)
     }

@@ -88,6 +88,7 @@ impl Job {
     fn write(&self, shared: &Shared, wake: impl Fn()) -> Result<String, Error> {
         let mut outputs = self.outputs()?;
         let options = DrawOptions {
+            method: self.model.method().clone(),
             size: self.export.size,
             viewpoint: self.viewpoint,
             picture: self.look.picture,

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use metaball::{Camera, Clip, Error, LightOptions, Model, Picture, Shown, Solid, View};
+use metaball::{
+    Camera, Clip, Error, Hit, LightOptions, Model, Picture, Shown, Solid, Verdict, View,
+};
 
 use crate::events::Post;
 use crate::mailbox::Mailbox;
@@ -46,6 +48,8 @@ pub struct Painting {
     pub model: Arc<Model>,
     /// How far it is.
     pub stage: Stage,
+    /// Pixels that arithmetic could not decide.
+    pub undecided: usize,
     /// The time that its rays took; of light, all of its samples so far.
     pub time: Duration,
 }
@@ -176,6 +180,8 @@ impl Easel<'_> {
 
     fn show(&self, shown: Shown, view: View, stage: Stage, time: Duration) {
         let model = self.order.model.clone();
-        self.post.send(Ok(Painting { shown, view, model, stage, time }));
+        let is_undecided = |hit: &&Hit| hit.verdict == Verdict::Undecided;
+        let undecided = shown.hits.iter().filter(is_undecided).count();
+        self.post.send(Ok(Painting { shown, view, model, stage, undecided, time }));
     }
 }

@@ -1,5 +1,6 @@
 //! What a window shows and does, without the window.
 
+mod judging;
 mod moving;
 mod order;
 
@@ -8,6 +9,7 @@ use std::sync::mpsc::Receiver;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use fbvh::{Kind, Options};
 use glam::DVec3;
 use metaball::{Camera, Clip, Model, Overrides, Picture, ReadOptions, Viewpoint};
 use metaball_core::CameraError;
@@ -18,6 +20,7 @@ use crate::builder::{self, Builder, Built};
 use crate::command_line::CommandLine;
 use crate::events::{Post, Wake};
 use crate::export::{Export, Exporting, Job};
+use crate::judge::{Judged, Judging};
 use crate::painter::{Look, Painter, Painting};
 use crate::pick::Pick;
 use crate::pose::Pose;
@@ -54,12 +57,16 @@ pub struct Viewer {
     opener: Arc<dyn Opener>,
     subject: Option<Arc<Subject>>,
     model: Option<Arc<Model>>,
+    models: u64,
     painting: Option<Painting>,
     paintings: u64,
+    /// How many pictures there have been with other rays, or another model, than the one before.
+    sights: u64,
     failure: Option<String>,
     progress: Progress,
     reading: ReadOptions,
     field: Overrides,
+    tree: Options,
     look: Look,
     first: Viewpoint,
     pose: Option<Pose>,
@@ -69,6 +76,8 @@ pub struct Viewer {
     opening: u64,
     built: Inbox<Result<Built, String>>,
     painted: Inbox<Result<Painting, String>>,
+    judged: Inbox<Judged>,
+    judging: Option<Judging>,
     builder: Builder,
     painter: Painter,
     exporting: Option<Exporting>,
@@ -97,12 +106,15 @@ impl Viewer {
             opener,
             subject: None,
             model: None,
+            models: 0,
             painting: None,
             paintings: 0,
+            sights: 0,
             failure: None,
             progress: Progress::Ready,
             reading: start.reading,
             field: start.field,
+            tree: Options::certified(),
             look: start.look,
             first: start.viewpoint,
             pose: None,
@@ -114,6 +126,8 @@ impl Viewer {
             painter: Painter::new(painted.post.clone()),
             built,
             painted,
+            judged: Inbox::new(wake),
+            judging: None,
             exporting: None,
             exported: None,
             written: Inbox::new(wake),
@@ -164,6 +178,7 @@ impl Viewer {
     /// Takes what the threads have reported.
     pub fn hear(&mut self) {
         self.take_written();
+        self.take_judged();
         while let Ok((id, subject)) = self.opened.reports.try_recv() {
             if id == self.opening {
                 self.take_subject(subject);
@@ -176,6 +191,12 @@ impl Viewer {
             self.ordered.count(&painted);
             match painted {
                 Ok(painting) => {
+                    let is_same = |old: &Painting| {
+                        old.view == painting.view && Arc::ptr_eq(&old.model, &painting.model)
+                    };
+                    if !self.painting.as_ref().is_some_and(is_same) {
+                        self.see_other();
+                    }
                     self.painting = Some(painting);
                     self.paintings += 1;
                 }
@@ -214,7 +235,13 @@ impl Viewer {
         let Some(subject) = self.subject.clone() else { return };
         self.progress = Progress::Building(Instant::now());
         let (frame, next) = (self.timeline.frame(), self.timeline.next());
-        self.builder.order(builder::Order { subject, frame, field: self.field, next });
+        self.builder.order(builder::Order {
+            subject,
+            frame,
+            field: self.field,
+            tree: self.tree,
+            next,
+        });
     }
 
     fn take_built(&mut self, built: Result<Built, String>) {
@@ -225,6 +252,7 @@ impl Viewer {
                     self.failure = None;
                 }
                 self.model = Some(built.model);
+                self.models += 1;
                 if let Some(Err(error)) = self.seen() {
                     self.failure = Some(error.to_string());
                 }
@@ -249,6 +277,11 @@ impl Viewer {
     /// What is drawn: the latest that was built.
     pub fn model(&self) -> Option<&Model> {
         self.model.as_deref()
+    }
+
+    /// How many there have been.
+    pub fn models(&self) -> u64 {
+        self.models
     }
 
     /// The latest picture.
@@ -289,6 +322,23 @@ impl Viewer {
         }
     }
 
+    /// The tree that is traced.
+    pub fn kind(&self) -> Kind {
+        self.tree.kind()
+    }
+
+    /// Traces another tree, which is built beside what is shown.
+    pub fn set_kind(&mut self, kind: Kind) {
+        if kind != self.kind() {
+            self.tree = match kind {
+                Kind::ModifiedBvh => Options::modified_bvh(),
+                Kind::Fitted => Options::fitted(),
+                Kind::Certified => Options::certified(),
+            };
+            self.build();
+        }
+    }
+
     /// What is seen.
     pub fn look(&self) -> &Look {
         &self.look
@@ -316,10 +366,10 @@ impl Viewer {
 
     /// Where the eye is; `None` before there is anything to see.
     pub fn pose(&self) -> Option<Pose> {
-        let scene = self.model.as_ref()?.scene();
+        let model = self.model.as_ref()?;
         let from_first = || {
             let camera = self.camera()?;
-            Some(Pose::of(&camera, scene.origin(), scene.bounds().center()))
+            Some(Pose::of(&camera, model.scene().origin(), model.bounds().center()))
         };
         self.pose.or_else(from_first)
     }
@@ -375,6 +425,7 @@ impl Viewer {
         let line = line
             .reading(&self.reading)
             .field(&self.field)
+            .flag("method", (self.kind() != Kind::Certified).then(|| self.kind().name()))
             .viewpoint(&self.viewpoint())
             .picture(picture)
             .clip(&self.look.clip)

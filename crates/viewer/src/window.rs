@@ -1,6 +1,7 @@
 //! The window: egui's widgets around a [`Viewer`].
 
 mod canvas;
+mod error_map;
 mod keys;
 mod marks;
 mod notice;
@@ -56,6 +57,8 @@ pub struct Window {
     canvas: Canvas,
     sections: Sections,
     picks: Vec<Pick>,
+    /// Which model they are of.
+    picked: u64,
     title: String,
 }
 
@@ -63,7 +66,7 @@ impl Window {
     /// Around a viewer.
     pub fn new(viewer: Viewer) -> Self {
         let (canvas, sections) = (Canvas::default(), Sections::default());
-        Self { viewer, canvas, sections, picks: Vec::new(), title: String::new() }
+        Self { viewer, canvas, sections, picks: Vec::new(), picked: 0, title: String::new() }
     }
 
     /// What is shown and done.
@@ -84,6 +87,10 @@ impl Window {
     /// Shows all of it.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         self.viewer.hear();
+        if self.picked != self.viewer.models() {
+            self.picked = self.viewer.models();
+            self.picks.clear();
+        }
         self.entitle(ui);
         keys::obey(ui, &mut self.viewer, self.canvas.id());
         self.open_dropped(ui);
@@ -111,7 +118,6 @@ impl Window {
     fn open_dropped(&mut self, ui: &egui::Ui) {
         let dropped = ui.input(|input| input.raw.dropped_files.last().cloned());
         if let Some(file) = dropped {
-            self.picks.clear();
             self.viewer.open(file.path().display().to_string());
         }
     }

@@ -9,6 +9,7 @@ use eframe::egui::{
 use glam::DVec3;
 use metaball::Verdict;
 
+use super::error_map::ErrorMap;
 use super::marks;
 use crate::{Painting, Pick, Pose, Viewer};
 
@@ -30,6 +31,7 @@ pub(super) struct Canvas {
     texture: Option<TextureHandle>,
     /// Which painting the texture is of.
     shown: u64,
+    errors: ErrorMap,
     /// The widget that takes the keys.
     id: Option<Id>,
     /// The point that a drag took hold of, in the coordinates of the file.
@@ -61,6 +63,7 @@ impl Canvas {
             let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
             painter.image(texture.id(), rect, whole, Color32::WHITE);
         }
+        self.errors.show(ui, rect, viewer);
         if let Some(pose) = viewer.pose() {
             marks::picks(&painter, rect, &pose, picks);
             marks::axes(&painter, rect, &pose);
@@ -112,6 +115,9 @@ fn marked(painting: &Painting) -> ColorImage {
     let image = &painting.shown.image;
     let size = [image.width as usize, image.height as usize];
     let mut marked = ColorImage::from_rgba_premultiplied(size, &image.rgba);
+    if painting.undecided == 0 {
+        return marked;
+    }
     for (pixel, hit) in marked.pixels.iter_mut().zip(&painting.shown.hits) {
         if hit.verdict == Verdict::Undecided {
             *pixel = UNDECIDED;

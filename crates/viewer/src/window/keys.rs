@@ -9,9 +9,9 @@ use crate::{Pose, Viewer};
 
 /// What each key does, for the list in the panel.
 pub(super) const KEYS: [(&str, &str); 11] = [
-    ("← → ↑ ↓", "turn"),
+    ("Arrows", "turn"),
     ("Shift and arrows", "move sideways"),
-    ("+ and −", "nearer, farther"),
+    ("+ and -", "nearer, farther"),
     ("W S A D, R F", "fly"),
     ("Q E", "roll"),
     ("H", "home"),
@@ -19,7 +19,7 @@ pub(super) const KEYS: [(&str, &str); 11] = [
     ("Space", "play or stop"),
     (", and .", "frame before, next frame"),
     ("Escape", "give up what is being read or built"),
-    ("Ctrl + and −", "larger, smaller words"),
+    ("Ctrl + and -", "larger, smaller words"),
 ];
 
 /// Radians that the eye turns a second while a key is held.

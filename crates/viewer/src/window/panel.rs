@@ -7,8 +7,9 @@ mod output;
 mod point;
 mod scene;
 mod surface;
+mod truth;
 
-use eframe::egui::{self, CollapsingHeader, ScrollArea, ThemePreference, Ui};
+use eframe::egui::{self, CollapsingHeader, Color32, ScrollArea, Sense, ThemePreference, Ui, Vec2};
 
 use self::output::Naming;
 use self::scene::Opening;
@@ -26,12 +27,13 @@ impl Sections {
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &mut Viewer, picks: &mut Vec<Pick>) {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
-            section(ui, "Scene", true, |ui| self.opening.show(ui, viewer, picks));
+            section(ui, "Scene", true, |ui| self.opening.show(ui, viewer));
             if viewer.model().is_some() {
                 section(ui, "Surface", true, |ui| surface::show(ui, viewer));
                 section(ui, "Light", false, |ui| light::show(ui, viewer));
                 section(ui, "Cut", false, |ui| cut::show(ui, viewer));
                 section(ui, "Points", true, |ui| point::show(ui, viewer, picks));
+                section(ui, "Truth", false, |ui| truth::show(ui, viewer));
                 section(ui, "Camera", false, |ui| camera::show(ui, viewer));
                 section(ui, "Picture", false, |ui| self.naming.show(ui, viewer));
             }
@@ -70,6 +72,12 @@ fn keys(ui: &mut Ui) {
             ui.end_row();
         }
     });
+}
+
+/// A square of a colour.
+fn swatch(ui: &mut Ui, [red, green, blue]: [u8; 3]) {
+    let (square, _) = ui.allocate_exact_size(Vec2::splat(11.0), Sense::hover());
+    ui.painter().rect_filled(square, 2.0, Color32::from_rgb(red, green, blue));
 }
 
 /// A name and what is said of it, in a grid of two columns.

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use eframe::egui::{self, Align, Button, Key, Layout, Slider};
-use metaball::Verdict;
+use fbvh::Kind;
 
 use crate::{Painting, Stage, Viewer};
 
@@ -21,15 +21,14 @@ pub(super) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) {
         if let (Stage::Coarse, Some(rate)) = (painting.stage, viewer.rate()) {
             ui.weak(format!("{rate:.0} frames a second"));
         }
-        let hits = &painting.shown.hits;
-        let undecided = hits.iter().filter(|hit| hit.verdict == Verdict::Undecided).count();
+        let undecided = painting.undecided;
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if undecided > 0 {
                 ui.colored_label(
                     ui.visuals().warn_fg_color,
                     format!("{undecided} pixels undecided, marked"),
                 );
-            } else {
+            } else if viewer.kind() == Kind::Certified {
                 ui.weak("every pixel certain");
             }
         });

@@ -6,5 +6,7 @@ mod camera;
 mod field;
 mod output;
 mod pick;
+mod sections;
 mod splash;
 mod stage;
+mod truth;

@@ -98,6 +98,7 @@ pub(crate) fn until_sharp(harness: &mut Harness<'_, Window>) {
 pub(crate) fn rendered(viewer: &Viewer) -> Drawing {
     let (subject, model) = (viewer.subject().expect("open"), viewer.model().expect("built"));
     let options = DrawOptions {
+        method: model.method().clone(),
         size: viewer.size().expect("drawn"),
         viewpoint: viewer.viewpoint(),
         picture: viewer.look().picture,

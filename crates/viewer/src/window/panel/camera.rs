@@ -7,11 +7,11 @@ use crate::{Pose, Viewer};
 
 const SIDES: [(DVec3, &str); 6] = [
     (DVec3::X, "+x"),
-    (DVec3::NEG_X, "−x"),
+    (DVec3::NEG_X, "-x"),
     (DVec3::Y, "+y"),
-    (DVec3::NEG_Y, "−y"),
+    (DVec3::NEG_Y, "-y"),
     (DVec3::Z, "+z"),
-    (DVec3::NEG_Z, "−z"),
+    (DVec3::NEG_Z, "-z"),
 ];
 
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {

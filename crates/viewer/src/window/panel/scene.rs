@@ -3,8 +3,8 @@
 use eframe::egui::{Color32, Grid, RichText, Ui};
 use metaball::{Legend, NoteKind, Scale};
 
-use super::{number, row};
-use crate::{Pick, Viewer};
+use super::{number, row, swatch};
+use crate::Viewer;
 
 /// A name that is being written.
 #[derive(Default)]
@@ -13,8 +13,8 @@ pub(super) struct Opening {
 }
 
 impl Opening {
-    pub(super) fn show(&mut self, ui: &mut Ui, viewer: &mut Viewer, picks: &mut Vec<Pick>) {
-        self.open(ui, viewer, picks);
+    pub(super) fn show(&mut self, ui: &mut Ui, viewer: &mut Viewer) {
+        self.open(ui, viewer);
         facts(ui, viewer);
         let Some(subject) = viewer.subject() else { return };
         for note in subject.notes.iter().flatten() {
@@ -29,7 +29,7 @@ impl Opening {
         }
     }
 
-    fn open(&mut self, ui: &mut Ui, viewer: &mut Viewer, picks: &mut Vec<Pick>) {
+    fn open(&mut self, ui: &mut Ui, viewer: &mut Viewer) {
         ui.horizontal(|ui| {
             let label = ui.label("Open");
             let field = eframe::egui::TextEdit::singleline(&mut self.spec)
@@ -39,7 +39,6 @@ impl Opening {
             let entered = written.lost_focus()
                 && ui.input(|input| input.key_pressed(eframe::egui::Key::Enter));
             if (ui.button("Go").clicked() || entered) && !self.spec.is_empty() {
-                picks.clear();
                 viewer.open(std::mem::take(&mut self.spec));
             }
         });
@@ -52,7 +51,7 @@ fn facts(ui: &mut Ui, viewer: &Viewer) {
     Grid::new("facts").num_columns(2).show(ui, |ui| {
         row(ui, "Name", RichText::new(&subject.name).strong());
         row(ui, "Balls", scene.len().to_string());
-        let size = scene.bounds().extent().to_array().map(|length| number(length.into()));
+        let size = model.bounds().extent().to_array().map(|length| number(length.into()));
         row(ui, "Size", size.join(" × "));
         row(
             ui,
@@ -103,9 +102,8 @@ fn show_legend(ui: &mut Ui, legend: &Legend) {
         }
         Scale::Words(words) => {
             for (word, color) in words {
-                let [r, g, b] = color.to_srgb();
                 ui.horizontal(|ui| {
-                    ui.colored_label(Color32::from_rgb(r, g, b), "■");
+                    swatch(ui, color.to_srgb());
                     ui.label(word);
                 });
             }
