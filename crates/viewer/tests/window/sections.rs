@@ -24,11 +24,11 @@ fn every_section_opens() {
             ("Keys", "Arrows"),
         ] {
             assert!(harness.query_by_label(widget).is_none());
-            harness.get_by_role_and_label(Role::DisclosureTriangle, section).click();
+            harness.get_by_role_and_label(Role::DisclosureTriangle, section).click_accesskit();
             harness.run_steps(20);
             assert!(harness.query_by_label(widget).is_some(), "{section} at {scale}");
         }
-        harness.get_by_label("Shadows").click();
+        harness.get_by_label("Shadows").click_accesskit();
         harness.run_steps(3);
         assert!(harness.state().viewer().look().light.shadows);
         assert_eq!(harness.state().viewer().look().light.samples, Some(64));
