@@ -85,7 +85,9 @@ mod tests {
         assert!(needs("compare molecule") && needs("stability") && needs("render x --software"));
         assert!(needs("animate splash --adapter=llvmpipe"));
         assert!(
-            !needs("compare --cpu") && !needs("render molecule --shadows") && !needs("score a b")
+            !needs("compare --cpu")
+                && !needs("render molecule --shadows")
+                && !needs("view molecule")
         );
     }
 }

@@ -28,6 +28,11 @@ impl Pace {
         (of(width), of(height))
     }
 
+    /// Whether nothing has been drawn yet: then something coarse is soon better than something sharp later.
+    pub(crate) fn is_new(&self) -> bool {
+        self.seconds_a_pixel.is_none()
+    }
+
     /// Learns that so many pixels took this long. A single picture that was held up by something else
     /// counts for half.
     pub(crate) fn learn(&mut self, pixels: usize, time: Duration) {

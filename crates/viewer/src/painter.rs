@@ -134,9 +134,12 @@ struct Easel<'a> {
 impl Easel<'_> {
     fn paint(&self, pace: &mut Pace) -> Result<(), Error> {
         let &Order { size, moving, .. } = self.order;
-        let coarse = pace.coarse(size);
-        if moving && coarse != size {
-            return self.draw(coarse, Stage::Coarse, pace);
+        let (coarse, is_first) = (pace.coarse(size), pace.is_new());
+        if (moving || is_first) && coarse != size {
+            self.draw(coarse, Stage::Coarse, pace)?;
+            if moving {
+                return Ok(());
+            }
         }
         self.draw(size, Stage::Sharp, pace)?;
         if !moving && self.order.look.light.is_asked() {

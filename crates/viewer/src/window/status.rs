@@ -17,7 +17,10 @@ pub(super) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) {
             return;
         };
         ui.label(stage(painting, viewer));
-        ui.weak(format!("{:.0} ms", 1e3 * painting.time.as_secs_f64()));
+        ui.weak(match painting.time.as_secs_f64() {
+            seconds if seconds < 2.0 => format!("{:.0} ms", 1e3 * seconds),
+            seconds => format!("{seconds:.1} s"),
+        });
         if let (Stage::Coarse, Some(rate)) = (painting.stage, viewer.rate()) {
             ui.weak(format!("{rate:.0} frames a second"));
         }
