@@ -17,6 +17,8 @@ const KEPT: usize = 3;
 /// What is to be built.
 #[derive(Debug, Clone)]
 pub(crate) struct Order {
+    /// Later orders have higher numbers.
+    pub(crate) number: u64,
     pub(crate) subject: Arc<Subject>,
     pub(crate) frame: u32,
     pub(crate) field: Overrides,
@@ -25,12 +27,12 @@ pub(crate) struct Order {
     pub(crate) next: Option<u32>,
 }
 
-/// What was built.
+/// What came of an order.
 #[derive(Debug)]
 pub(crate) struct Built {
-    pub(crate) subject: Arc<Subject>,
-    pub(crate) frame: u32,
-    pub(crate) model: Arc<Model>,
+    pub(crate) order: Order,
+    /// The model, or why there is none.
+    pub(crate) model: Result<Arc<Model>, String>,
 }
 
 /// Builds on a thread of its own, until it is dropped.
@@ -40,17 +42,15 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
-    /// What is built, or why it cannot be, goes to `post`.
-    pub(crate) fn new(post: Post<Result<Built, String>>) -> Self {
+    /// What comes of orders goes to `post`.
+    pub(crate) fn new(post: Post<Built>) -> Self {
         let orders = Arc::new(Mailbox::new());
         let taken: Arc<Mailbox<Order>> = orders.clone();
         thread::spawn(move || {
             let mut kept = Kept::default();
             while let Some(order) = taken.take() {
-                let Order { subject, frame, .. } = order.clone();
-                let model = kept.model(&order, frame);
-                let built = model.map(|model| Built { subject, frame, model });
-                post.send(built.map_err(|error| told(&*error)));
+                let model = kept.model(&order, order.frame).map_err(|error| told(&*error));
+                post.send(Built { order: order.clone(), model });
                 if let (Some(next), false) = (order.next, taken.calls()) {
                     // What is wrong with it is said when it is asked for.
                     let _ = kept.model(&order, next);

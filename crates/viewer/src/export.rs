@@ -95,7 +95,6 @@ impl Job {
             clip: self.look.clip.clone(),
             light: self.look.light.clone(),
             backend: Backend::Cpu,
-            ..DrawOptions::default()
         };
         let watch = |progress: Progress| {
             if progress.stage == Stage::Drawing {

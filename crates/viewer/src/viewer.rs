@@ -74,7 +74,14 @@ pub struct Viewer {
     ordered: Ordered,
     opened: Inbox<(u64, Result<Subject, String>)>,
     opening: u64,
-    built: Inbox<Result<Built, String>>,
+    /// Whether what is being opened begins without the options of what was there before.
+    opens_anew: bool,
+    building: u64,
+    /// Builds up to this number have been given up.
+    given_up: u64,
+    /// What the model was built by.
+    latest: Option<builder::Order>,
+    built: Inbox<Built>,
     painted: Inbox<Result<Painting, String>>,
     judged: Inbox<Judged>,
     judging: Option<Judging>,
@@ -122,6 +129,10 @@ impl Viewer {
             ordered: Ordered::default(),
             opened: Inbox::new(wake),
             opening: 0,
+            opens_anew: false,
+            building: 0,
+            given_up: 0,
+            latest: None,
             builder: Builder::new(built.post.clone()),
             painter: Painter::new(painted.post.clone()),
             built,
@@ -133,35 +144,33 @@ impl Viewer {
             written: Inbox::new(wake),
         };
         if let Some(spec) = start.spec {
-            viewer.read(spec);
+            let reading = viewer.reading.clone();
+            viewer.read(spec, reading, false);
         }
         viewer
     }
 
     /// Opens something else, as its file says it, seen from where its own camera is.
     pub fn open(&mut self, spec: String) {
-        self.reading = ReadOptions::default();
-        self.field = Overrides::default();
-        self.first = Viewpoint::default();
-        self.look.clip = Clip::default();
-        self.read(spec);
+        self.read(spec, ReadOptions::default(), true);
     }
 
     /// Reads the same again, otherwise.
     pub fn read_as(&mut self, reading: ReadOptions) {
         if let Some(subject) = self.subject.as_ref().filter(|_| reading != self.reading) {
             let spec = subject.spec.clone();
-            self.reading = reading;
-            self.read(spec);
+            self.reading = reading.clone();
+            self.read(spec, reading, false);
         }
     }
 
     /// Reads on a thread of its own, since nothing interrupts a reader: it may go on for a while after
     /// it is no longer wanted.
-    fn read(&mut self, spec: String) {
+    fn read(&mut self, spec: String, reading: ReadOptions, anew: bool) {
         self.opening += 1;
+        self.opens_anew = anew;
         self.progress = Progress::Reading(Instant::now());
-        let (opener, reading, id) = (self.opener.clone(), self.reading.clone(), self.opening);
+        let (opener, id) = (self.opener.clone(), self.opening);
         let post = self.opened.post.clone();
         thread::spawn(move || {
             let subject = opener.open(&spec, &reading);
@@ -171,8 +180,28 @@ impl Viewer {
 
     /// Gives up what is being read or built: what was there before is still shown.
     pub fn cancel(&mut self) {
+        if self.progress == Progress::Ready {
+            return;
+        }
         self.opening += 1;
+        self.given_up = self.building;
         self.progress = Progress::Ready;
+        match self.latest.clone() {
+            Some(latest) => self.go_back(latest),
+            None => self.subject = None,
+        }
+    }
+
+    /// Back to what the model was built by.
+    fn go_back(&mut self, latest: builder::Order) {
+        if !self.is_current(&latest.subject) {
+            self.timeline = Timeline::of(&latest.subject);
+        }
+        let now = Instant::now();
+        self.timeline = self.timeline.playing(false, now).at(latest.frame, now);
+        self.reading = latest.subject.reading.clone();
+        (self.field, self.tree) = (latest.field, latest.tree);
+        self.subject = Some(latest.subject);
     }
 
     /// Takes what the threads have reported.
@@ -215,8 +244,10 @@ impl Viewer {
     fn take_subject(&mut self, subject: Result<Subject, String>) {
         match subject {
             Ok(subject) => {
-                let same = self.subject.as_ref().is_some_and(|old| old.spec == subject.spec);
-                if !same {
+                if self.opens_anew {
+                    self.begin_anew();
+                }
+                if self.subject.as_ref().is_none_or(|old| old.spec != subject.spec) {
                     self.pose = None;
                     self.timeline = Timeline::of(&subject);
                 }
@@ -231,11 +262,22 @@ impl Viewer {
         }
     }
 
+    /// Forgets what was asked of another subject.
+    fn begin_anew(&mut self) {
+        self.reading = ReadOptions::default();
+        self.field = Overrides::default();
+        self.first = Viewpoint::default();
+        self.look.clip = Clip::default();
+        self.pose = None;
+    }
+
     fn build(&mut self) {
         let Some(subject) = self.subject.clone() else { return };
+        self.building += 1;
         self.progress = Progress::Building(Instant::now());
         let (frame, next) = (self.timeline.frame(), self.timeline.next());
         self.builder.order(builder::Order {
+            number: self.building,
             subject,
             frame,
             field: self.field,
@@ -244,24 +286,24 @@ impl Viewer {
         });
     }
 
-    fn take_built(&mut self, built: Result<Built, String>) {
-        match built {
-            Ok(built) if self.is_current(&built.subject) => {
-                if self.timeline.frame() == built.frame {
-                    self.progress = Progress::Ready;
-                    self.failure = None;
-                }
-                self.model = Some(built.model);
+    fn take_built(&mut self, Built { order, model }: Built) {
+        if order.number <= self.given_up || !self.is_current(&order.subject) {
+            return;
+        }
+        if order.number == self.building {
+            self.progress = Progress::Ready;
+        }
+        match model {
+            Ok(model) => {
+                self.failure = None;
+                self.model = Some(model);
                 self.models += 1;
+                self.latest = Some(order);
                 if let Some(Err(error)) = self.seen() {
                     self.failure = Some(error.to_string());
                 }
             }
-            Ok(_) => {}
-            Err(failure) => {
-                self.failure = Some(failure);
-                self.progress = Progress::Ready;
-            }
+            Err(failure) => self.failure = Some(failure),
         }
     }
 

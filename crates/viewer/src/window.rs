@@ -19,14 +19,24 @@ use crate::{Opener, Pick, Start, Viewer, Wake};
 
 /// Why there is no window.
 #[derive(Debug, Error)]
-#[error(
-    "window: needed a display (DISPLAY or WAYLAND_DISPLAY) and OpenGL 2 or later, found {found}; on Debian \
-     and Ubuntu apt-get install libgl1 libegl1 libgl1-mesa-dri brings one without a graphics card, and \
-     render and animate need neither"
-)]
-pub struct WindowError {
-    /// What the system said.
-    found: String,
+#[non_exhaustive]
+pub enum WindowError {
+    /// There is nothing to show it on.
+    #[error(
+        "window: needed a display, found neither DISPLAY nor WAYLAND_DISPLAY in the environment; render \
+         and animate need none"
+    )]
+    NoDisplay,
+    /// The display cannot be opened, or has no OpenGL.
+    #[error(
+        "window: needed a display with OpenGL 2 or later, found {found}; on Debian and Ubuntu apt-get \
+         install libgl1 libegl1 libgl1-mesa-dri brings OpenGL without a graphics card, and render and \
+         animate need neither"
+    )]
+    System {
+        /// What the system said.
+        found: String,
+    },
 }
 
 /// Opens a window, and returns when it is closed. What is read, built and drawn is given up then.
@@ -34,6 +44,9 @@ pub struct WindowError {
 /// # Errors
 /// When there is no display, or no OpenGL on it.
 pub fn open_window(opener: Arc<dyn Opener>, start: Start) -> Result<(), WindowError> {
+    if !has_display() {
+        return Err(WindowError::NoDisplay);
+    }
     // Reading begins before there is a window, which takes longer to open.
     let context = egui::Context::default();
     let waker = context.clone();
@@ -48,7 +61,14 @@ pub fn open_window(opener: Arc<dyn Opener>, start: Start) -> Result<(), WindowEr
     };
     let creator = Box::new(|_: &eframe::CreationContext<'_>| Ok(Box::new(window) as Box<_>));
     eframe::run_native_ext("metaball", options, Some(context), creator)
-        .map_err(|error| WindowError { found: error.to_string() })
+        .map_err(|error| WindowError::System { found: error.to_string() })
+}
+
+/// Whether the environment names a display, where that is how one is found.
+fn has_display() -> bool {
+    let names = ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"];
+    let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    cfg!(any(target_os = "macos", windows)) || names.iter().any(is_set)
 }
 
 /// The widgets, and what they remember.

@@ -38,6 +38,31 @@ fn a_broken_file_is_an_error_that_is_read_and_the_next_file_opens() {
     harness.get_by_label(&first);
 }
 
+/// What was there before is still there, with all that was asked of it.
+#[test]
+fn a_build_can_be_given_up_and_a_failed_opening_changes_nothing() {
+    let mut begin = start("two-merging");
+    begin.field.threshold = Some(0.3);
+    let mut harness = window_of(Arc::new(Bench), begin);
+    until_sharp(&mut harness);
+    let before = harness.state().viewer().command_line().expect("open");
+    harness.state_mut().viewer_mut().open("nowhere.xyz".to_owned());
+    until(&mut harness, |viewer| viewer.failure().is_some());
+    assert_eq!(harness.state().viewer().command_line().expect("open"), before);
+
+    harness.state_mut().viewer_mut().open("scattered:200000".to_owned());
+    until(&mut harness, |viewer| matches!(viewer.progress(), Progress::Building(_)));
+    assert_ne!(harness.state().viewer().command_line().expect("open"), before);
+    harness.state_mut().viewer_mut().cancel();
+    assert_eq!(harness.state().viewer().command_line().expect("open"), before);
+    std::thread::sleep(Duration::from_millis(1500));
+    harness.step();
+    until_sharp(&mut harness);
+    let viewer = harness.state().viewer();
+    assert_eq!(viewer.model().expect("built").scene().len(), 2);
+    assert_eq!(viewer.subject().expect("open").spec, "two-merging");
+}
+
 /// Opens when it is told to.
 struct Slow(Mutex<Receiver<()>>);
 

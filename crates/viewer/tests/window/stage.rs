@@ -105,7 +105,6 @@ pub(crate) fn rendered(viewer: &Viewer) -> Drawing {
         clip: viewer.look().clip.clone(),
         light: viewer.look().light.clone(),
         backend: Backend::Cpu,
-        ..DrawOptions::default()
     };
     draw(model.scene(), &subject.camera, &options).expect("drawn")
 }
