@@ -13,6 +13,7 @@ use eframe::egui::{self, CollapsingHeader, Color32, ScrollArea, Sense, ThemePref
 
 use self::output::Naming;
 use self::scene::Opening;
+use self::surface::Coloring;
 use super::keys::KEYS;
 use crate::{Pick, Viewer};
 
@@ -20,6 +21,7 @@ use crate::{Pick, Viewer};
 #[derive(Default)]
 pub(super) struct Sections {
     opening: Opening,
+    coloring: Coloring,
     naming: Naming,
 }
 
@@ -29,7 +31,9 @@ impl Sections {
             ui.add_space(4.0);
             section(ui, "Scene", true, |ui| self.opening.show(ui, viewer));
             if viewer.model().is_some() {
-                section(ui, "Surface", true, |ui| surface::show(ui, viewer));
+                section(ui, "Surface", true, |ui| {
+                    surface::show(ui, viewer, &mut self.coloring);
+                });
                 section(ui, "Light", false, |ui| light::show(ui, viewer));
                 section(ui, "Cut", false, |ui| cut::show(ui, viewer));
                 section(ui, "Points", true, |ui| point::show(ui, viewer, picks));

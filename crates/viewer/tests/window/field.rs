@@ -1,6 +1,6 @@
 //! Another kernel, threshold and radius; light; a cut.
 
-use eframe::egui::Role;
+use eframe::egui::{Key, Role};
 use egui_kittest::kittest::Queryable;
 use metaball::{LightOptions, Overrides, ReadOptions};
 use metaball_core::Kernel;
@@ -81,4 +81,28 @@ fn radii_are_scaled_by_the_reader() {
     let wanted = metaball::load(&path, &reading, &Overrides::default()).expect("read").scene;
     until(&mut harness, |viewer| viewer.model().is_some_and(|model| *model.scene() == wanted));
     assert_rendered(&mut harness);
+}
+
+#[test]
+fn a_column_gives_colours_and_a_legend() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("drops.csv");
+    std::fs::write(&path, "x,y,z,radius,heat\n0,0,0,1,3\n1.5,0,0,1,8\n").expect("written");
+    let path = path.display().to_string();
+    let mut harness = window(&path);
+    assert_rendered(&mut harness);
+    harness.get_by_label("Colour by").focus();
+    harness.step();
+    harness.get_by_role_and_label(Role::TextInput, "Colour by").type_text("heat=0..10");
+    harness.step();
+    harness.key_press(Key::Enter);
+    harness.step();
+    until(&mut harness, |viewer| {
+        viewer.model().is_some_and(|model| model.scene().colors().is_some())
+    });
+    assert_rendered(&mut harness);
+    harness.get_by_label("heat");
+    let viewer = harness.state().viewer();
+    let line = viewer.command_line().expect("open").to_string();
+    assert!(line.contains("--color-by=heat=0..10"), "{line}");
 }

@@ -1,7 +1,7 @@
 //! The field whose surface is seen, and what the picture shows of it.
 
-use eframe::egui::{ComboBox, Slider, Ui};
-use metaball::{Overrides, Picture, ReadOptions};
+use eframe::egui::{ComboBox, Key, Slider, TextEdit, Ui};
+use metaball::{ColorBy, Overrides, Picture, ReadOptions};
 use metaball_core::Kernel;
 
 use crate::{Look, Viewer};
@@ -16,7 +16,44 @@ const PICTURES: [(Picture, &str); 4] = [
     (Picture::Color, "Colours"),
 ];
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+/// A column's name that is being written.
+#[derive(Default)]
+pub(super) struct Coloring {
+    column: String,
+    refusal: Option<String>,
+}
+
+impl Coloring {
+    /// Particles get their colours where they are read, too.
+    fn show(&mut self, ui: &mut Ui, viewer: &mut Viewer) {
+        ui.horizontal(|ui| {
+            let label = ui.label("Colour by");
+            let field = TextEdit::singleline(&mut self.column)
+                .hint_text("a column, or none")
+                .desired_width(ui.available_width() - 8.0);
+            let written = ui.add(field).labelled_by(label.id);
+            let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
+            if written.lost_focus() && is_entered {
+                self.refusal = self.read(viewer).err();
+            }
+        });
+        if let Some(refusal) = &self.refusal {
+            ui.colored_label(ui.visuals().error_fg_color, refusal);
+        }
+    }
+
+    fn read(&self, viewer: &mut Viewer) -> Result<(), String> {
+        let column = self.column.trim();
+        let color_by = match column {
+            "" => None,
+            column => Some(column.parse::<ColorBy>().map_err(|error| error.to_string())?),
+        };
+        viewer.read_as(ReadOptions { color_by, ..viewer.reading().clone() });
+        Ok(())
+    }
+}
+
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, coloring: &mut Coloring) {
     let Some(model) = viewer.model() else { return };
     let (kernel, threshold) = (model.scene().kernel(), model.scene().threshold());
     let mut field = *viewer.field();
@@ -25,6 +62,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     viewer.set_field(field);
     if viewer.subject().is_some_and(crate::Subject::is_of_file) {
         radii(ui, viewer);
+        coloring.show(ui, viewer);
     }
     let old = viewer.look().picture;
     let mut picture = old;
