@@ -1,9 +1,13 @@
-//! The machine's one need beyond Rust: a graphics adapter, real or in software.
+//! What pictures by an adapter need beyond Rust: one, real or in software.
 
 use std::path::Path;
 use std::process::Command;
 
-use crate::run::{say, succeeds, to_the_end};
+use crate::packages::install;
+use crate::run::say;
+
+/// Mesa's software driver, and what loads it.
+const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 
 /// Shown on a machine without a Vulkan driver.
 const HOW_TO_INSTALL: &str = "\
@@ -27,40 +31,15 @@ pub(crate) fn ensure() -> Result<Adapter, String> {
     if driver_exists() {
         return Ok(Adapter::Found);
     }
-    let Some(mut rights) = install_rights() else {
+    if !install("No Vulkan driver was found", &PACKAGES)? {
         say(HOW_TO_INSTALL);
         return Ok(Adapter::Missing);
-    };
-    say("No Vulkan driver was found: installing mesa-vulkan-drivers and libvulkan1 with apt-get.");
-    to_the_end(rights.args(["apt-get", "update", "-qq"]))?;
-    let mut install = install_rights().unwrap_or(rights);
-    install.args(["apt-get", "install", "-y", "-qq", "--no-install-recommends"]);
-    to_the_end(install.args(["mesa-vulkan-drivers", "libvulkan1"]))?;
+    }
     if driver_exists() {
         Ok(Adapter::Found)
     } else {
         Err("apt-get installed mesa-vulkan-drivers, but no driver file appeared".to_owned())
     }
-}
-
-/// A command prefix that may install packages here, if there is one: `env` for root, `sudo -n` for
-/// a user who needs no password. Only on systems with apt-get.
-fn install_rights() -> Option<Command> {
-    if !succeeds("apt-get", &["--version"]) {
-        return None;
-    }
-    let user = Command::new("id").arg("-u").output().ok()?;
-    let mut rights = if user.stdout.trim_ascii() == b"0" {
-        Command::new("env")
-    } else if succeeds("sudo", &["-n", "true"]) {
-        let mut sudo = Command::new("sudo");
-        sudo.args(["-n", "env"]);
-        sudo
-    } else {
-        return None;
-    };
-    rights.arg("DEBIAN_FRONTEND=noninteractive");
-    Some(rights)
 }
 
 /// Metal and Direct3D come with their systems; elsewhere Vulkan needs its loader and a driver's

@@ -5,6 +5,8 @@
 
 mod adapter;
 mod bench;
+mod display;
+mod packages;
 mod python;
 mod run;
 mod test;
@@ -21,11 +23,13 @@ cargo xtask bench [...]          times the criterion benches, or those that a fi
 cargo xtask setup                makes sure that a Vulkan adapter exists, and does nothing else
 cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` in release mode:
                                  compare, score, diff, chart, stability, certify, render,
-                                 animate, convert, tables, scenes, methods; `help` lists them
+                                 animate, view, convert, tables, scenes, methods; `help` lists
+                                 them
 
 They set the machine up first: where no Vulkan adapter is found on Debian or Ubuntu, and with the
-rights to do so, they install Mesa's software one. With --cpu none is needed, nor for render and
-animate, unless --software or --adapter asks for one.
+rights to do so, they install Mesa's software one; test installs Xvfb too, to test the window. With
+--cpu no adapter is needed, nor for render and animate, unless --software or --adapter asks for one,
+nor for view.
 ";
 
 fn main() -> ExitCode {
@@ -66,7 +70,7 @@ fn needs_adapter(command: &str, arguments: &[String]) -> bool {
         arguments.iter().any(name)
     };
     match command {
-        "scenes" | "methods" | "score" | "diff" | "convert" => false,
+        "scenes" | "methods" | "score" | "diff" | "convert" | "view" => false,
         "render" | "animate" => asks_for(&["--software", "--adapter"]),
         _ => !asks_for(&["--cpu"]),
     }
@@ -85,7 +89,9 @@ mod tests {
         assert!(needs("compare molecule") && needs("stability") && needs("render x --software"));
         assert!(needs("animate splash --adapter=llvmpipe"));
         assert!(
-            !needs("compare --cpu") && !needs("render molecule --shadows") && !needs("score a b")
+            !needs("compare --cpu")
+                && !needs("render molecule --shadows")
+                && !needs("view molecule")
         );
     }
 }

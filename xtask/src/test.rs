@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use crate::adapter::{self, Adapter};
+use crate::display;
 use crate::python;
 use crate::run::{cargo, quieten, say, succeeds, to_the_end};
 
@@ -22,6 +23,7 @@ struct Step {
 /// `cargo test`, which then is the only step.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
     let adapter = adapter::ensure()?;
+    display::ensure()?;
     // Tests that need an adapter fail without one when this is set, and show as ignored otherwise.
     let environment = (adapter == Adapter::Found).then_some(("REQUIRE_GPU", "1"));
     if !arguments.is_empty() {

@@ -41,13 +41,7 @@ pub fn heat_map(reference: &Reference, hits: &[Hit]) -> Image {
         if judgement.is_wrong() {
             wrong.push(pixel);
         }
-        colors[pixel] = match judgement.finding {
-            _ if judgement.ambiguous => AMBIGUOUS,
-            Finding::Hit { error } => error_color(error),
-            Finding::Miss => MISS,
-            Finding::Undecided => UNDECIDED,
-            Finding::FalseNegative | Finding::FalsePositive => WRONG,
-        };
+        colors[pixel] = color(&judgement);
     }
     let reach = (width / MARK_SHARE).max(1);
     for pixel in wrong {
@@ -60,6 +54,18 @@ pub fn heat_map(reference: &Reference, hits: &[Hit]) -> Image {
     }
     let rgba = colors.iter().flat_map(|&[red, green, blue]| [red, green, blue, 255]).collect();
     Image { width: reference.width(), height: reference.height(), rgba }
+}
+
+/// The colour of a pixel's judgement.
+pub fn color(judgement: &Judgement) -> [u8; 3] {
+    match judgement.finding {
+        _ if judgement.ambiguous => AMBIGUOUS,
+        _ if judgement.is_wrong() => WRONG,
+        Finding::Hit { error } => error_color(error),
+        Finding::Miss => MISS,
+        Finding::Undecided => UNDECIDED,
+        Finding::FalseNegative | Finding::FalsePositive => WRONG,
+    }
 }
 
 /// The scale's colour for an error in support radii.

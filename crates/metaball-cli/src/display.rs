@@ -1,4 +1,4 @@
-//! No command shows anything on a display, so none is asked for.
+//! Commands that show nothing on a display ask for none.
 
 /// Starts the process anew, in its own place, where a layer of Mesa's Vulkan drivers would complain: wgpu
 /// can draw to Wayland's displays, so the layer that puts adapters in order

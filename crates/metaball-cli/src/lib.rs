@@ -19,6 +19,8 @@ mod says;
 mod shared;
 mod tables;
 mod values;
+#[cfg(feature = "viewer")]
+mod view;
 
 use std::process::ExitCode;
 
@@ -35,6 +37,8 @@ use self::convert::ConvertArgs;
 use self::draw::{AnimateArgs, RenderArgs};
 use self::measure::{CertifyArgs, ChartArgs, CompareArgs, DiffArgs, ScoreArgs, StabilityArgs};
 use self::tables::TablesCommand;
+#[cfg(feature = "viewer")]
+use self::view::ViewArgs;
 
 /// Ray casters of metaball isosurfaces on the GPU, compared with an exact reference.
 #[derive(Debug, Parser)]
@@ -63,6 +67,9 @@ enum Command {
     /// Frames that are there already, whole and drawn with these options, are not drawn again, so an
     /// interrupted run is continued, and the range can be split among machines.
     Animate(Box<AnimateArgs>),
+    /// Open a window: turn the surface, light it, cut it, and ask what a point of it is made of.
+    #[cfg(feature = "viewer")]
+    View(Box<ViewArgs>),
     /// Measure a paper's tables anew, and set the printed numbers beside; or other programs; or what it
     /// saves that shaders are made for a scene.
     Tables {
@@ -86,6 +93,16 @@ enum Command {
     Scenes,
     /// List the methods.
     Methods,
+}
+
+impl Command {
+    /// Whether it shows something on a display.
+    fn shows(&self) -> bool {
+        #[cfg(feature = "viewer")]
+        return matches!(self, Self::View(_));
+        #[cfg(not(feature = "viewer"))]
+        return false;
+    }
 }
 
 /// Runs the command that the process's arguments name, and prints what went wrong.
@@ -125,7 +142,9 @@ pub fn run_with(own: impl IntoIterator<Item = Method>) -> ExitCode {
     let outcome = add_methods(own).map_err(anyhow::Error::from);
     let obeyed = outcome.and_then(|()| {
         let command = Cli::parse().command;
-        display::leave_out();
+        if !command.shows() {
+            display::leave_out();
+        }
         obey(command)
     });
     match obeyed {
@@ -144,6 +163,8 @@ fn obey(command: Command) -> anyhow::Result<()> {
         Command::Diff(diff) => diff.run(),
         Command::Render(render) => render.run(),
         Command::Animate(animate) => animate.run(),
+        #[cfg(feature = "viewer")]
+        Command::View(view) => view.run(),
         Command::Convert(convert) => convert.run(),
         Command::Tables { of } => of.run(),
         Command::Stability(stability) => stability.run(),

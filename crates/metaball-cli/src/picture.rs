@@ -1,5 +1,7 @@
 //! Pictures and colours: their names on the command line.
 
+#[cfg(feature = "viewer")]
+use metaball_core::shade::CpuPicture;
 use metaball_core::{Color, Picture, WorkKind};
 
 use crate::values::vector;
@@ -14,6 +16,19 @@ pub(crate) fn picture_named(name: &str) -> Result<Picture, String> {
         let known: Vec<_> = names().map(|(known, _)| known).collect();
         format!("needed one of {}", known.join(", "))
     })
+}
+
+/// The same, of those that the CPU draws.
+///
+/// # Errors
+/// When it is another; says which there are.
+#[cfg(feature = "viewer")]
+pub(crate) fn picture_on_cpu(name: &str) -> Result<Picture, String> {
+    let picture = picture_named(name)?;
+    match CpuPicture::of(picture) {
+        Some(_) => Ok(picture),
+        None => Err(CpuPicture::CHOICE.to_owned()),
+    }
 }
 
 /// The colour of three sRGB-encoded channels from 0 to 1, with commas between.

@@ -113,6 +113,12 @@ impl Clip {
         self
     }
 
+    /// The half-spaces that it is made of: the points x with normal · x ≤ offset, as [`Clip::and_plane`]
+    /// takes them.
+    pub fn planes(&self) -> impl ExactSizeIterator<Item = (Vec3, f64)> + '_ {
+        self.planes.iter().map(|plane| (plane.normal, plane.offset))
+    }
+
     /// Whether the region is all of space, which cuts nothing.
     pub fn is_all(&self) -> bool {
         self.planes.is_empty()

@@ -10,7 +10,7 @@ pub struct SurfaceColors<'a> {
     scene: &'a Scene,
     /// Balls by the x of their centres; empty in a scene without colours.
     along_x: Vec<u32>,
-    /// The largest support radius.
+    /// The largest of their support radii.
     reach: f32,
 }
 
@@ -25,7 +25,8 @@ impl<'a> SurfaceColors<'a> {
         let mut along_x: Vec<_> = (0..balls).collect();
         let x = |ball: u32| supports[ball as usize].center.x;
         along_x.sort_by(|&a, &b| x(a).total_cmp(&x(b)));
-        let reach = supports.iter().map(|ball| ball.radius).fold(0.0, f32::max);
+        let radius = |&ball: &u32| supports[ball as usize].radius;
+        let reach = along_x.iter().map(radius).fold(0.0, f32::max);
         Self { scene, along_x, reach }
     }
 

@@ -150,6 +150,10 @@ fn arguments(py: Python<'_>, particles: Particles) -> PyResult<Read<'_>> {
         }
         Sizes::Shown(radii) => arguments.set_item("radius", PyArray1::from_vec(py, radii))?,
         Sizes::Spacing(radius) => arguments.set_item("support_radius", radius)?,
+        Sizes::Smoothing(_) => {
+            let needed = "radii, as files are read for without a formula of SPH";
+            return Err(refused("sizes", needed, "smoothing lengths"));
+        }
     }
     if let Some(strengths) = strengths {
         arguments.set_item("strength", PyArray1::from_vec(py, strengths))?;

@@ -25,7 +25,7 @@ use crate::watch::Watch;
 /// A scene with its tree and a camera that shows it.
 #[pyclass(frozen, module = "metaball._metaball")]
 pub(crate) struct Surface {
-    surface: metaball::Surface,
+    surface: metaball::Model,
     camera: SceneCamera,
 }
 
@@ -309,7 +309,7 @@ impl Surface {
 impl Surface {
     fn of(scene: Scene) -> PyResult<Self> {
         let (camera, _) = own_camera(&scene);
-        let surface = metaball::Surface::build(scene).map_err(raised)?;
+        let surface = metaball::Model::new(scene, &metaball::Method::default()).map_err(raised)?;
         Ok(Self { surface, camera })
     }
 

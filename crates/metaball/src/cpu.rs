@@ -41,8 +41,8 @@ impl Built {
         Ok(Self { tree, time: start.elapsed() })
     }
 
-    /// Bytes of the tree.
-    pub(crate) fn tree_bytes(&self) -> usize {
+    /// Memory of the tree, bytes.
+    pub(crate) fn bytes(&self) -> usize {
         self.tree.stats().bytes
     }
 
@@ -95,11 +95,9 @@ impl<'a> Painter<'a> {
                 Look::Shared(Shader::new(scene, view, picture))
             }
             Some(lighting) => {
-                let paths = lighting.on_cpu(tracer, scene, view).ok_or_else(|| Error::Option {
-                    option: "method",
-                    needed: "fbvh-certified, which follows rays inside the solid".to_owned(),
-                    found: options.method.name().to_owned(),
-                })?;
+                let paths = lighting
+                    .on_cpu(tracer, scene, view)
+                    .ok_or_else(|| Error::unlit(&options.method))?;
                 Look::Lit(lighting, paths.into())
             }
         };

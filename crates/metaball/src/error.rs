@@ -11,6 +11,8 @@ use particle_files::{BoxError, LoadError};
 use picture_files::PictureFileError;
 use thiserror::Error;
 
+use crate::Method;
+
 /// Why there is no picture. Every text names the thing, what was needed and what was found.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -145,4 +147,15 @@ pub enum Error {
         /// Why.
         source: Box<Self>,
     },
+}
+
+impl Error {
+    /// A method does not follow the rays that the light needs.
+    pub(crate) fn unlit(method: &Method) -> Self {
+        Self::Option {
+            option: "method",
+            needed: "fbvh-certified, which follows rays inside the solid".to_owned(),
+            found: method.name().to_owned(),
+        }
+    }
 }

@@ -23,9 +23,9 @@
 //!   [`Viewpoint`], [what it shows](DrawOptions::picture), [what is cut away](Clip), [`LightOptions`],
 //!   [which method](Method) and [what computes](Backend). All of them have defaults. The result is a
 //!   [`Drawing`]: the image, and distance, normal and verdict of every ray.
-//! - A [`Surface`] is a scene with its tree, to be drawn and traced any number of times.
 //! - [`draw_to_files`] draws it to files band by band, so that it may be of any size, and goes on with one
 //!   that was interrupted. It writes over none of its own [inputs](Outputs::inputs), which [`inputs()`] finds.
+//! - A [`Model`] is a scene that is built once, and drawn and traced again and again, as a window does.
 //! - `animate` draws the frames of an [`AnimatedScene`], such as a [`Sequence`] of numbered files,
 //!   while the structure of the next one is built (feature `gpu`).
 //!
@@ -53,9 +53,9 @@ mod inputs;
 mod legend;
 mod light;
 mod method;
+mod model;
 mod spool;
 mod summary;
-mod surface;
 mod viewpoint;
 
 #[cfg(feature = "gpu")]
@@ -78,11 +78,11 @@ pub use metaball_core::{
 #[cfg(feature = "harness")]
 pub use method::Choosing;
 pub use method::Method;
+pub use model::{Model, Shown, Solid};
 pub use particle_files::{
     AnimatedScene, BoxError, Cell, ColorBy, Formula, FormulaOptions, Legend, Loaded, Note,
     NoteKind, Notes, NumberedPath, Overrides, Preset, ReadOptions, Rule, Scale, Selection,
     Sequence, Substance, Unit, inputs, load,
 };
 pub use summary::{Progress, Stage, Summary, Tally};
-pub use surface::Surface;
 pub use viewpoint::Viewpoint;

@@ -3,7 +3,5 @@
 mod lighting;
 mod options;
 
-#[cfg(feature = "gpu")]
-pub(crate) use lighting::DEPTH_CUE_WIDTH;
-pub(crate) use lighting::Lighting;
+pub(crate) use lighting::{DEPTH_CUE_WIDTH, Lighting};
 pub use options::{FloorKind, LightOptions};

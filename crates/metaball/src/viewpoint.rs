@@ -34,9 +34,11 @@ impl Viewpoint {
         }
         let in_scene = |point: DVec3| (point - scene.origin()).as_vec3();
         let eye = self.eye.map_or(own.eye(), in_scene);
-        let middle = scene.bounds().center();
-        let ahead = if self.eye.is_some() { middle } else { eye + own.forward() };
-        let look_at = self.look_at.map_or(ahead, in_scene);
+        let ahead = || match self.eye {
+            Some(_) => scene.bounds().center(),
+            None => eye + own.forward(),
+        };
+        let look_at = self.look_at.map_or_else(ahead, in_scene);
         let degrees = self.fov.unwrap_or(2.0 * own.half_height().atan().to_degrees());
         let turns = self.eye.is_some() || self.look_at.is_some();
         match self.up.or((!turns).then_some(own.up())) {

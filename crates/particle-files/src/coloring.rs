@@ -1,5 +1,6 @@
 //! Colours by what a file says of its particles.
 
+use std::fmt;
 use std::str::FromStr;
 
 use metaball_core::Color;
@@ -69,6 +70,16 @@ impl FromStr for ColorBy {
             return Err(refused());
         }
         Ok(Self { name: name.to_owned(), range: Some((from, to)) })
+    }
+}
+
+impl fmt::Display for ColorBy {
+    /// As [`ColorBy::from_str`] reads it.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.range {
+            Some((from, to)) => write!(formatter, "{}={from}..{to}", self.name),
+            None => formatter.write_str(&self.name),
+        }
     }
 }
 

@@ -98,6 +98,16 @@ impl ReadOptions {
     }
 }
 
+impl fmt::Display for Substance {
+    /// As [`Substance::from_str`] reads it.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Molecule => "molecule",
+            Self::Particles => "particles",
+        })
+    }
+}
+
 impl FromStr for Substance {
     type Err = LoadError;
 

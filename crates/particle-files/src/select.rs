@@ -1,5 +1,6 @@
 //! Which particles of a file are kept.
 
+use std::fmt;
 use std::str::FromStr;
 
 use crate::atom_names::WATER;
@@ -70,6 +71,13 @@ impl FromStr for Rule {
             return rule(column, Matches::Range(from, to));
         }
         rule(column, words(&values.split(',').map(str::trim).collect::<Vec<_>>()))
+    }
+}
+
+impl fmt::Display for Rule {
+    /// As [`Rule::from_str`] reads it.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.text)
     }
 }
 

@@ -27,7 +27,7 @@ pub struct PathTracer<'a, T> {
 /// Rows of a picture in linear light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rows {
-    /// The mean of all samples, row by row from the left.
+    /// The mean of all samples, or one of them, row by row from the left.
     pub light: Vec<Vec3>,
     /// The rays that it took.
     pub rays: Rays,
@@ -67,7 +67,14 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
 
     /// The light of some of the view's rows, on rayon's current pool.
     pub fn rows(&self, rows: Range<u32>) -> Rows {
-        self.light(rows, None)
+        self.mean(rows, None)
+    }
+
+    /// The light of some of the view's rows along the paths of a single sample, one of those that the
+    /// picture has. All of them, summed from the first on and divided by their number, are
+    /// [`rows`](PathTracer::rows) bit for bit: a picture can be shown while it gets better.
+    pub fn rows_of_sample(&self, rows: Range<u32>, index: u32) -> Rows {
+        self.light(rows, index..index + 1, None)
     }
 
     /// The same where these rows' [first hits](PathTracer::first_hits) are known: with a single sample
@@ -77,7 +84,7 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
     /// When there are not as many hits as pixels.
     pub fn rows_behind(&self, rows: Range<u32>, first_hits: &[SurfaceHit]) -> Rows {
         assert_eq!(first_hits.len(), self.pixels_of(&rows).len(), "a hit a pixel");
-        self.light(rows, Some(first_hits).filter(|_| self.lighting.has_one_sample()))
+        self.mean(rows, Some(first_hits).filter(|_| self.lighting.has_one_sample()))
     }
 
     /// What the rays through the middles of pixels find, row by row from the left, on rayon's current
@@ -97,20 +104,43 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
     pub fn pixels(&self, pixels: &[u32]) -> Vec<Vec3> {
         let means = pixels.par_chunks((TILE * TILE) as usize).map_init(
             || Scratch::new(self.tracer.scratch()),
-            |scratch, pixels| self.means(pixels, None, scratch),
+            |scratch, pixels| {
+                let mut light = self.sums(pixels, 0..self.samples, None, scratch);
+                self.divide(&mut light);
+                light
+            },
         );
         means.flatten().collect()
     }
 
-    fn light(&self, rows: Range<u32>, first_hits: Option<&[SurfaceHit]>) -> Rows {
+    /// The mean of all samples.
+    fn mean(&self, rows: Range<u32>, first_hits: Option<&[SurfaceHit]>) -> Rows {
+        let mut lit = self.light(rows, 0..self.samples, first_hits);
+        self.divide(&mut lit.light);
+        lit
+    }
+
+    /// Makes means of the sums of all samples.
+    fn divide(&self, sums: &mut [Vec3]) {
+        sums.iter_mut().for_each(|sum| *sum /= self.samples as f32);
+    }
+
+    /// The sums of some samples.
+    fn light(
+        &self,
+        rows: Range<u32>,
+        samples: Range<u32>,
+        first_hits: Option<&[SurfaceHit]>,
+    ) -> Rows {
         let first = self.pixels_of(&rows).start;
         let (light, rays) = self.in_tiles(rows, Vec3::ZERO, |pixels, scratch| {
             let of_tile = |hits: &[SurfaceHit]| -> Vec<_> {
                 pixels.iter().map(|&pixel| hits[pixel as usize - first]).collect()
             };
             scratch.rays = Rays::default();
-            let means = self.means(pixels, first_hits.map(of_tile).as_deref(), scratch);
-            (means, scratch.rays)
+            let first_hits = first_hits.map(of_tile);
+            let sums = self.sums(pixels, samples.clone(), first_hits.as_deref(), scratch);
+            (sums, scratch.rays)
         });
         Rows { light, rays }
     }
@@ -171,22 +201,22 @@ impl<'a, T: HostTracer> PathTracer<'a, T> {
         pixels
     }
 
-    /// The means of all samples of some pixels.
-    fn means(
+    /// The sums of some samples of some pixels.
+    fn sums(
         &self,
         pixels: &[u32],
+        samples: Range<u32>,
         first_hits: Option<&[SurfaceHit]>,
         scratch: &mut Scratch<T::Scratch>,
     ) -> Vec<Vec3> {
-        let mut means = vec![Vec3::ZERO; pixels.len()];
-        for index in 0..self.samples {
+        let mut sums = vec![Vec3::ZERO; pixels.len()];
+        for index in samples {
             self.follow(Sample { pixels, index, first_hits }, scratch);
-            for (sum, path) in means.iter_mut().zip(&scratch.paths) {
+            for (sum, path) in sums.iter_mut().zip(&scratch.paths) {
                 *sum += path.radiance;
             }
         }
-        means.iter_mut().for_each(|mean| *mean /= self.samples as f32);
-        means
+        sums
     }
 
     /// The ray of a pixel's sample.

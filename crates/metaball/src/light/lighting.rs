@@ -28,6 +28,11 @@ impl Lighting {
         self.depth_cue.is_some()
     }
 
+    /// By how much, if it does.
+    pub(crate) fn depth_cue_strength(&self) -> Option<f32> {
+        self.depth_cue
+    }
+
     /// What changes the light of a picture with these distances, if anything does.
     pub(crate) fn depth_cue(&self, view: &View, range: ValueRange) -> Option<DepthCue> {
         let size = (view.width(), view.height());
