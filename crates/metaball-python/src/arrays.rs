@@ -70,6 +70,20 @@ impl NumberArray<'_> {
     }
 }
 
+/// Points that are rows.
+pub(crate) struct Rows<'a, T>(pub(crate) &'a [[T; 3]]);
+
+impl<T: Copy + Into<f64> + Sync> Positions for Rows<'_, T> {
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline]
+    fn at(&self, index: usize) -> DVec3 {
+        DVec3::from_array(self.0[index].map(Into::into))
+    }
+}
+
 impl Positions for Points<'_> {
     fn count(&self) -> usize {
         match self {
@@ -83,8 +97,8 @@ impl Positions for Points<'_> {
     #[inline]
     fn at(&self, index: usize) -> DVec3 {
         match self {
-            Self::SingleRows(rows) => DVec3::from_array(rows[index].map(f64::from)),
-            Self::DoubleRows(rows) => DVec3::from_array(rows[index]),
+            Self::SingleRows(rows) => Rows(rows).at(index),
+            Self::DoubleRows(rows) => Rows(rows).at(index),
             Self::Single(array) => {
                 DVec3::from_array([0, 1, 2].map(|axis| f64::from(array[[index, axis]])))
             }

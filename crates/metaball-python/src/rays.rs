@@ -10,7 +10,7 @@ use particle_files::Positions;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::arrays::{NumberArray, Numbers, PointArray, Points};
+use crate::arrays::{NumberArray, Numbers, PointArray, Points, Rows};
 use crate::errors::refused;
 
 /// Rays that are made and traced together: enough for all threads, few enough to stay near.
@@ -61,8 +61,17 @@ impl Rays<'_> {
     /// Names the first that has no direction, or does not start at a point.
     pub(crate) fn make(&self, first: usize, rays: &mut Vec<Ray>) -> PyResult<()> {
         let count = TOGETHER.min(self.count() - first);
-        let made = (first..first + count).into_par_iter().map(|index| self.at(index));
-        made.collect_into_vec(rays);
+        rays.clear();
+        rays.resize(count, Ray::new(Vec3::ZERO, Vec3::ZERO));
+        // Column by column: of which sort an array is, is asked once.
+        let origin = self.scene_origin;
+        each_point(self.origins, first, rays, |ray, at| ray.origin = (at - origin).as_vec3());
+        each_point(self.directions, first, rays, |ray, at| ray.direction = unit(at));
+        let (t_min, t_max) = (self.t_min, self.t_max);
+        rays.par_iter_mut().enumerate().for_each(|(index, ray)| {
+            ray.t_min = t_min.at(one(t_min.count(), first + index));
+            ray.t_max = t_max.at(one(t_max.count(), first + index)).min(NO_LIMIT);
+        });
         let is_broken = |ray: &Ray| !(ray.direction.is_finite() && ray.origin.is_finite());
         match rays.par_iter().position_first(is_broken) {
             None => Ok(()),
@@ -78,16 +87,34 @@ impl Rays<'_> {
             }
         }
     }
+}
 
-    #[inline]
-    fn at(&self, index: usize) -> Ray {
-        let origin = self.origins.at(one(self.origins.count(), index)) - self.scene_origin;
-        Ray {
-            origin: origin.as_vec3(),
-            direction: unit(self.directions.at(index)),
-            t_min: self.t_min.at(one(self.t_min.count(), index)),
-            t_max: self.t_max.at(one(self.t_max.count(), index)).min(NO_LIMIT),
+/// Sets something of each ray by its point: those of an array from an index on, or the one for all.
+fn each_point(
+    points: Points<'_>,
+    first: usize,
+    rays: &mut [Ray],
+    set: impl Fn(&mut Ray, DVec3) + Sync,
+) {
+    fn each<P: Positions>(
+        points: &P,
+        first: usize,
+        rays: &mut [Ray],
+        set: impl Fn(&mut Ray, DVec3) + Sync,
+    ) {
+        let count = points.count();
+        if count == 1 {
+            let point = points.at(0);
+            rays.par_iter_mut().for_each(|ray| set(ray, point));
+        } else {
+            let rays = rays.par_iter_mut().enumerate();
+            rays.for_each(|(index, ray)| set(ray, points.at(first + index)));
         }
+    }
+    match points {
+        Points::SingleRows(rows) => each(&Rows(rows), first, rays, set),
+        Points::DoubleRows(rows) => each(&Rows(rows), first, rays, set),
+        points => each(&points, first, rays, set),
     }
 }
 

@@ -112,10 +112,13 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Pixels of a band of a picture that someone watches, and may break off: few enough to be done
-    /// in a second or so.
+    /// Pixels of a band of a picture that someone watches, and may break off: those of light are the least
+    /// that there are.
     pub(crate) fn watched_pixels(&self) -> u32 {
-        self.band_pixels() / 4
+        match self.look {
+            Look::Shared(_) => 1 << 18,
+            Look::Lit(..) => 1,
+        }
     }
 
     /// What a band has to keep for a picture, and for files of hits and of light where they are wanted.

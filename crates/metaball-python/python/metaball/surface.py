@@ -106,7 +106,7 @@ class Surface:
         progress: Progress = False,
         **light: Unpack[LightOptions],
     ) -> Image:
-        """A picture, the same bytes on every machine. Ctrl-C ends it.
+        """A picture, the same bytes on every machine. Ctrl-C ends it, after the sixteen rows that are drawn.
 
         Parameters
         ----------
