@@ -38,10 +38,7 @@ pub(crate) fn truths(
     goes_on: impl FnMut(usize) -> ControlFlow<()>,
 ) -> PyResult<Vec<Truth>> {
     let mut truths = Vec::with_capacity(rays.count());
-    let answer = |rays: &[_]| {
-        truths.append(&mut oracle.first_hits(rays));
-        Ok(())
-    };
+    let answer = |rays: &[_]| truths.append(&mut oracle.first_hits(rays));
     each_batch(rays, answer, goes_on)?;
     Ok(truths)
 }

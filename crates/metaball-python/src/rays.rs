@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use glam::{DVec3, Vec3};
-use metaball_core::{Hit, NO_LIMIT, Ray, Verdict};
+use metaball_core::{Hit, HostTracer, NO_LIMIT, Ray, RayQuery, SurfaceHit, Verdict};
 use numpy::ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use particle_files::Positions;
@@ -55,12 +55,11 @@ impl Rays<'_> {
         self.directions.count()
     }
 
-    /// The rays from an index on, at most so many as are traced together, into a buffer.
+    /// So many rays from an index on, into a buffer.
     ///
     /// # Errors
     /// Names the first that has no direction, or does not start at a point.
-    pub(crate) fn make(&self, first: usize, rays: &mut Vec<Ray>) -> PyResult<()> {
-        let count = TOGETHER.min(self.count() - first);
+    fn make(&self, first: usize, count: usize, rays: &mut Vec<Ray>) -> PyResult<()> {
         rays.clear();
         rays.resize(count, Ray::new(Vec3::ZERO, Vec3::ZERO));
         // Column by column: of which sort an array is, is asked once.
@@ -68,12 +67,12 @@ impl Rays<'_> {
         each_point(self.origins, first, rays, |ray, at| ray.origin = (at - origin).as_vec3());
         each_point(self.directions, first, rays, |ray, at| ray.direction = unit(at));
         let (t_min, t_max) = (self.t_min, self.t_max);
-        rays.par_iter_mut().enumerate().for_each(|(index, ray)| {
+        for (index, ray) in rays.iter_mut().enumerate() {
             ray.t_min = t_min.at(one(t_min.count(), first + index));
             ray.t_max = t_max.at(one(t_max.count(), first + index)).min(NO_LIMIT);
-        });
+        }
         let is_broken = |ray: &Ray| !(ray.direction.is_finite() && ray.origin.is_finite());
-        match rays.par_iter().position_first(is_broken) {
+        match rays.iter().position(is_broken) {
             None => Ok(()),
             Some(index) if rays[index].origin.is_finite() => {
                 let found = self.directions.at(first + index);
@@ -90,25 +89,16 @@ impl Rays<'_> {
 }
 
 /// Sets something of each ray by its point: those of an array from an index on, or the one for all.
-fn each_point(
-    points: Points<'_>,
-    first: usize,
-    rays: &mut [Ray],
-    set: impl Fn(&mut Ray, DVec3) + Sync,
-) {
+fn each_point(points: Points<'_>, first: usize, rays: &mut [Ray], set: impl Fn(&mut Ray, DVec3)) {
     fn each<P: Positions>(
         points: &P,
         first: usize,
         rays: &mut [Ray],
-        set: impl Fn(&mut Ray, DVec3) + Sync,
+        set: impl Fn(&mut Ray, DVec3),
     ) {
         let count = points.count();
-        if count == 1 {
-            let point = points.at(0);
-            rays.par_iter_mut().for_each(|ray| set(ray, point));
-        } else {
-            let rays = rays.par_iter_mut().enumerate();
-            rays.for_each(|(index, ray)| set(ray, points.at(first + index)));
+        for (index, ray) in rays.iter_mut().enumerate() {
+            set(ray, points.at(one(count, first + index)));
         }
     }
     match points {
@@ -190,23 +180,19 @@ pub(crate) struct Columns {
 
 impl Columns {
     pub(crate) fn of(hits: &[Hit]) -> Self {
-        let mut columns = Self::with_capacity(hits.len());
-        columns.append(hits);
-        columns
-    }
-
-    pub(crate) fn with_capacity(count: usize) -> Self {
         Self {
-            t: Vec::with_capacity(count),
-            normals: Vec::with_capacity(count),
-            verdicts: Vec::with_capacity(count),
+            t: hits.iter().map(|hit| hit.t).collect(),
+            normals: hits.iter().map(|hit| hit.normal.to_array()).collect(),
+            verdicts: hits.iter().map(|hit| hit.verdict as u8).collect(),
         }
     }
 
-    pub(crate) fn append(&mut self, hits: &[Hit]) {
-        self.t.extend(hits.iter().map(|hit| hit.t));
-        self.normals.extend(hits.iter().map(|hit| hit.normal.to_array()));
-        self.verdicts.extend(hits.iter().map(|hit| hit.verdict as u8));
+    fn blank(count: usize) -> Self {
+        Self { t: vec![0.0; count], normals: vec![[0.0; 3]; count], verdicts: vec![0; count] }
+    }
+
+    pub(crate) fn into_verdicts(self) -> Vec<u8> {
+        self.verdicts
     }
 
     pub(crate) fn into_arrays(self, py: Python<'_>) -> PyResult<HitArrays<'_>> {
@@ -220,16 +206,16 @@ impl Columns {
     }
 }
 
-/// Makes and traces all rays, some at a time: `answer` gets them in order, and `goes_on` how many are done.
+/// Makes all rays, some at a time: `answer` gets them in order, and `goes_on` how many are done.
 pub(crate) fn each_batch(
     rays: &Rays<'_>,
-    mut answer: impl FnMut(&[Ray]) -> PyResult<()>,
+    mut answer: impl FnMut(&[Ray]),
     mut goes_on: impl FnMut(usize) -> ControlFlow<()>,
 ) -> PyResult<()> {
     let mut together = Vec::new();
     for first in (0..rays.count()).step_by(TOGETHER) {
-        rays.make(first, &mut together)?;
-        answer(&together)?;
+        rays.make(first, TOGETHER.min(rays.count() - first), &mut together)?;
+        answer(&together);
         if goes_on(first + together.len()).is_break() {
             break;
         }
@@ -237,7 +223,40 @@ pub(crate) fn each_batch(
     Ok(())
 }
 
-/// Verdicts as numbers: `metaball.Verdict`.
-pub(crate) fn numbers(verdicts: &[Verdict]) -> impl Iterator<Item = u8> + '_ {
-    verdicts.iter().map(|verdict| *verdict as u8)
+/// What rays meet. They are made, traced and written down in runs that stay in a thread's caches; `goes_on` gets
+/// how many are done.
+pub(crate) fn traced<T: HostTracer>(
+    rays: &Rays<'_>,
+    tracer: &T,
+    query: RayQuery,
+    mut goes_on: impl FnMut(usize) -> ControlFlow<()>,
+) -> PyResult<Columns> {
+    /// A multiple of a packet.
+    const RUN: usize = 256;
+    let scratch = || (tracer.scratch(), Vec::new(), Vec::new());
+    let mut columns = Columns::blank(rays.count());
+    for first in (0..rays.count()).step_by(TOGETHER) {
+        let end = rays.count().min(first + TOGETHER);
+        let Columns { t, normals, verdicts } = &mut columns;
+        let runs = t[first..end].par_chunks_mut(RUN).zip(normals[first..end].par_chunks_mut(RUN));
+        let runs = runs.zip(verdicts[first..end].par_chunks_mut(RUN)).enumerate();
+        let refused = runs
+            .map_init(scratch, |(scratch, made, found), (run, ((t, normals), verdicts))| {
+                rays.make(first + run * RUN, t.len(), made)?;
+                found.resize(made.len(), SurfaceHit::MISS);
+                tracer.answer(query, made, scratch, found);
+                for (index, SurfaceHit { hit, .. }) in found.iter().enumerate() {
+                    t[index] = hit.t;
+                    normals[index] = hit.normal.to_array();
+                    verdicts[index] = hit.verdict as u8;
+                }
+                Ok::<_, PyErr>(())
+            })
+            .find_first(Result::is_err);
+        refused.unwrap_or(Ok(()))?;
+        if goes_on(end).is_break() {
+            break;
+        }
+    }
+    Ok(columns)
 }

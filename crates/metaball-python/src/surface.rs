@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use metaball::{DrawOptions, Drawing};
 use metaball_core::reference::Oracle;
-use metaball_core::{Camera as SceneCamera, Color, Kernel, Scene};
+use metaball_core::{Camera as SceneCamera, Color, Kernel, RayQuery, Scene};
 use numpy::ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3};
 use particle_files::{Positions, own_camera};
@@ -18,7 +18,7 @@ use crate::errors::{raised, refused};
 use crate::light::Light;
 use crate::options::{Corners, Plane, clip, picture_named};
 use crate::particles::Particles;
-use crate::rays::{Columns, HitArrays, HitColumns, RayArrays, each_batch, numbers};
+use crate::rays::{Columns, HitArrays, HitColumns, RayArrays, traced};
 use crate::reading::rows;
 use crate::watch::Watch;
 
@@ -191,35 +191,20 @@ impl Surface {
     ) -> PyResult<HitArrays<'py>> {
         let rays = rays.rays(self.surface.scene().origin());
         let mut watch = Watch::new(bar);
-        let traced = py.detach(|| {
-            let tracer = self.surface.tracer();
-            let mut columns = Columns::with_capacity(rays.count());
-            let answer = |rays: &[_]| {
-                columns.append(&tracer.first_hits(rays));
-                Ok(())
-            };
-            each_batch(&rays, answer, |done| watch.goes_on(done))?;
-            Ok(columns)
-        });
-        watch.outcome(traced)?.into_arrays(py)
+        let tracer = self.surface.tracer();
+        let found =
+            py.detach(|| traced(&rays, &tracer, RayQuery::FirstHit, |done| watch.goes_on(done)));
+        watch.outcome(found)?.into_arrays(py)
     }
 
     /// Where rays that start inside leave the solid.
     fn exit<'py>(&self, py: Python<'py>, rays: RayArrays<'py>) -> PyResult<HitArrays<'py>> {
         let rays = rays.rays(self.surface.scene().origin());
         let mut watch = Watch::new(None);
-        let traced = py.detach(|| {
-            let tracer = self.surface.tracer();
-            let mut columns = Columns::with_capacity(rays.count());
-            let answer = |rays: &[_]| {
-                let exits = tracer.first_exits(rays);
-                columns.append(&exits.map_err(raised)?);
-                Ok(())
-            };
-            each_batch(&rays, answer, |done| watch.goes_on(done))?;
-            Ok(columns)
-        });
-        watch.outcome(traced)?.into_arrays(py)
+        let tracer = self.surface.tracer();
+        let found =
+            py.detach(|| traced(&rays, &tracer, RayQuery::Exit, |done| watch.goes_on(done)));
+        watch.outcome(found)?.into_arrays(py)
     }
 
     /// Whether there is solid on rays: their verdicts.
@@ -230,17 +215,10 @@ impl Surface {
     ) -> PyResult<Bound<'py, PyArray1<u8>>> {
         let rays = rays.rays(self.surface.scene().origin());
         let mut watch = Watch::new(None);
-        let traced = py.detach(|| {
-            let tracer = self.surface.tracer();
-            let mut verdicts = Vec::with_capacity(rays.count());
-            let answer = |rays: &[_]| {
-                verdicts.extend(numbers(&tracer.any_hits(rays)));
-                Ok(())
-            };
-            each_batch(&rays, answer, |done| watch.goes_on(done))?;
-            Ok(verdicts)
-        });
-        Ok(PyArray1::from_vec(py, watch.outcome(traced)?))
+        let tracer = self.surface.tracer();
+        let found =
+            py.detach(|| traced(&rays, &tracer, RayQuery::AnyHit, |done| watch.goes_on(done)));
+        Ok(PyArray1::from_vec(py, watch.outcome(found)?.into_verdicts()))
     }
 
     /// The truth along rays, by the reference.

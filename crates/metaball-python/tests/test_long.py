@@ -62,7 +62,9 @@ def test_a_bar_that_raises_ends_a_picture(surface: Surface) -> None:
 def test_ctrl_c_ends_a_long_picture() -> None:
     """This picture takes minutes."""
     script = (
-        "import numpy as np, metaball\n"
+        "import signal, numpy as np, metaball\n"
+        # A shell that runs tests in the background has signals of this kind ignored.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "particles = metaball.Particles(np.random.default_rng(0).random((3000, 3)))\n"
         "surface = metaball.Surface(particles)\n"
         "print('begins', flush=True)\n"
