@@ -3,13 +3,14 @@
 mod scenes;
 
 use approx::assert_relative_eq;
+use bench_scenes::{BenchScene, Overrides, load};
 use fbvh::{
     Boxes, Classes, Fitting, Kind, Options, Reading, SecantSearch, Structure, TraceError, Tracer,
     Tree, Work,
 };
 use glam::{DVec3, Vec3};
 use metaball_core::reference::{Oracle, Truth};
-use metaball_core::{Camera, Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict};
+use metaball_core::{Camera, Hit, Kernel, Metaball, NO_LIMIT, Ray, Scene, Verdict, View};
 use proptest::prelude::*;
 
 const CLIPPED: SecantSearch = SecantSearch::DEFAULT;
@@ -437,6 +438,35 @@ fn exits_of_rays_that_start_outside_are_at_their_start() {
     }
     let ends = Ray { t_max: 0.5, ..Ray::new(Vec3::ZERO, Vec3::X) };
     assert_eq!(tracer.first_exit(&ends), Ok(Hit::MISS));
+}
+
+/// Where a ray starts on the face of a leaf, rounding decides on which side of it. That it starts in the
+/// solid does not depend on that.
+#[test]
+fn starts_on_faces_of_leaves_are_as_far_inside() {
+    let BenchScene { scene, camera, .. } =
+        load("scattered:200:30", &Overrides::default()).expect("a generator");
+    let oracle = Oracle::new(&scene);
+    let tree = Tree::build(&scene, &Options::certified()).expect("legal options");
+    let tracer = Tracer::new(&tree, &scene);
+    let mut inside = 0;
+    for ray in View::new(camera, 40, 30).expect("a size").rays() {
+        let (origin, inverse) = (ray.origin.as_dvec3(), ray.direction.as_dvec3().recip());
+        for leaf in tree.leaves() {
+            let to_min = (leaf.bounds().min.as_dvec3() - origin) * inverse;
+            let to_max = (leaf.bounds().max.as_dvec3() - origin) * inverse;
+            let (enter, leave) = (to_min.min(to_max), to_min.max(to_max));
+            if enter.max_element() > leave.min_element() || enter.max_element() <= 0.0 {
+                continue;
+            }
+            let start = Ray { t_min: enter.max_element() as f32, ..ray };
+            let answers = Answers::of(&tracer, &start);
+            let complaint = false_answer((&scene, &oracle), &start, &answers);
+            assert!(complaint.is_none(), "{start:?}: {complaint:?}");
+            inside += usize::from(answers.any == Verdict::Inside);
+        }
+    }
+    assert!(inside > 1000, "{inside}");
 }
 
 proptest! {

@@ -1,8 +1,8 @@
 //! Rays through the certified tree: which answers are certain, and why.
 //!
 //! A leaf is searched in f32 first, by polynomials (`trace/certified/polynomial.rs`), with every
-//! rounding accounted for; what that cannot decide, kernels that are no polynomials among it, is
-//! searched in f64 by ranges (`trace/certified/ranges.rs`). Of a root the nearest float is found, in f64,
+//! rounding accounted for; what that cannot decide, Perlin's kernel among it, is searched in f64 by
+//! ranges (`trace/certified/ranges.rs`). Of a root the nearest float is found, in f64,
 //! so that it does not matter which search isolated it (`trace/certified/nearest_float.rs`).
 //!
 //! # By polynomials
@@ -15,6 +15,12 @@
 //! are below T, the interval holds no crossing. If the two agree and their signs change once, it
 //! holds one, the first. Otherwise the interval is shortened, from the front to where the upper
 //! polynomial may first reach T, and from the back to where the lower one certainly has.
+//!
+//! Other kernels than power kernels up to α = 4 and Wyvill's are convex in v, with a second derivative that
+//! rises with v: on the range of v that a ball has on the interval such a kernel lies between two parabolas in
+//! v, which are polynomials of degree four along the ray (`trace/certified/kernel/convex.rs`). There the interval
+//! holds one crossing where the field is below T at its start and above at its end, and a lower bound of its
+//! slope is positive throughout.
 //!
 //! # By the leaf's polynomial
 //! Where many rays meet a leaf with a long list, one polynomial for the whole field in it decides most of
