@@ -221,3 +221,6 @@ fn of_polynomial<const N: usize>(
         steepness: zero,
     }
 }
+
+#[cfg(test)]
+mod tests;
