@@ -27,17 +27,27 @@ impl Exponent {
 
 /// Where a Gaussian is cut, in standard deviations: from 1 to 6 in steps of a hundredth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Cut(u16);
+pub struct Cut {
+    hundredths: u16,
+    /// The bits of the Gaussian's scale, so that no value has to find it again.
+    scale: u64,
+}
 
 impl Cut {
+    fn at(hundredths: u16) -> Self {
+        let scale = Gaussian::cut_at(f64::from(hundredths) / 100.0).scale();
+        Self { hundredths, scale: scale.to_bits() }
+    }
+
     /// The value, 1 to 6.
     pub fn get(self) -> f64 {
-        f64::from(self.0) / 100.0
+        f64::from(self.hundredths) / 100.0
     }
 
     /// The Gaussian that is cut there.
+    #[inline]
     pub fn profile(self) -> Gaussian {
-        Gaussian::cut_at(self.get())
+        Gaussian::of_scale(self.get(), f64::from_bits(self.scale))
     }
 }
 
@@ -186,7 +196,7 @@ impl Kernel {
         let hundredths = (100.0 * deviations).round();
         let is_exact = (hundredths / 100.0 - deviations).abs() <= 1e-9;
         if is_exact && (100.0..=600.0).contains(&hundredths) {
-            Ok(Self::Gaussian(Cut(hundredths as u16)))
+            Ok(Self::Gaussian(Cut::at(hundredths as u16)))
         } else {
             Err(CutError { found: deviations })
         }
@@ -203,7 +213,7 @@ impl Kernel {
             Self::WendlandC2,
             Self::WendlandC4,
             Self::WendlandC6,
-            Self::Gaussian(Cut(300)),
+            Self::Gaussian(Cut::at(300)),
         ];
         (1..=8).map(|exponent| Self::Power(Exponent(exponent))).chain(others)
     }
@@ -386,7 +396,7 @@ impl FromStr for Kernel {
         let named = match name {
             "power" | "quartic" => Some(Self::QUARTIC),
             "poly6" => Some(Self::Power(Exponent(3))),
-            "gaussian" => Some(Self::Gaussian(Cut(300))),
+            "gaussian" => Some(Self::Gaussian(Cut::at(300))),
             _ => match name.strip_prefix("gaussian-") {
                 Some(cut) => gaussian(cut),
                 None => Self::all().find(|kernel| kernel.to_string() == name),

@@ -233,10 +233,15 @@ pub struct Gaussian {
 
 impl Gaussian {
     /// The Gaussian that is cut at so many standard deviations.
-    #[inline]
     pub(super) fn cut_at(deviations: f64) -> Self {
         let exponent = 0.5 * deviations * deviations;
         Self { exponent, scale: 1.0 / (Real::exp(exponent) - 1.0) }
+    }
+
+    /// The same, of which the scale is known.
+    #[inline]
+    pub(super) fn of_scale(deviations: f64, scale: f64) -> Self {
+        Self { exponent: 0.5 * deviations * deviations, scale }
     }
 
     /// c: how far down the cut is, in powers of e.
