@@ -112,16 +112,6 @@ const KNOWN: &[KnownScene] = &[
         "Two balls with one surface, the cubic spline of SPH.",
         Small(|| small::two(Kernel::CubicSpline)),
     ),
-    small(
-        "two-wendland-c2",
-        "Two balls with one surface, Wendland's function of smoothness C².",
-        Small(|| small::two(Kernel::WendlandC2)),
-    ),
-    small(
-        "two-gaussian",
-        "Two balls with one surface, a Gaussian that is cut at three standard deviations.",
-        Small(small::two_gaussian),
-    ),
     small("two-merging", "Two balls with one surface.", Small(small::two_merging)),
     small(
         "five-close-up",

@@ -44,10 +44,6 @@ pub(crate) fn two(kernel: Kernel) -> Result<Shot, LoadError> {
     Ok((scene.with_kernel(kernel), looking(Vec3::new(1.2, 0.9, 3.0), Vec3::ZERO)?))
 }
 
-pub(crate) fn two_gaussian() -> Result<Shot, LoadError> {
-    two(Kernel::gaussian(3.0)?)
-}
-
 pub(crate) fn fifteen_coincident() -> Result<Shot, LoadError> {
     let scene = quartic([Metaball::new(Vec3::ZERO, 1.0); 15])?;
     Ok((scene, looking(Vec3::new(0.0, 0.0, 4.0), Vec3::ZERO)?))
