@@ -52,8 +52,30 @@ pub struct ByFormula {
     pub threshold: f32,
 }
 
-/// What a formula makes of each particle.
-struct Balls {
+/// What each formula says.
+trait Density {
+    /// The kernel unless another is asked for.
+    fn kernel(&self) -> Kernel;
+
+    /// The ball of each particle.
+    fn balls(
+        &self,
+        particles: &Particles,
+        kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<SizedBalls, Flaw>;
+
+    /// The threshold unless another is asked for.
+    fn threshold(
+        &self,
+        particles: &Particles,
+        kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<f32, Flaw>;
+}
+
+/// How large each ball is, and how strong.
+struct SizedBalls {
     /// Support radii, in the unit of the positions.
     radii: Vec<f32>,
     strengths: Vec<f32>,
@@ -76,10 +98,11 @@ impl Formula {
         if particles.strengths.take().is_some() {
             notes.left_out("the file's strengths: the formula says them");
         }
-        let made = self.balls(&particles, kernel, &mut notes).and_then(|balls| {
+        let density = self.density();
+        let made = density.balls(&particles, kernel, &mut notes).and_then(|balls| {
             let threshold = match threshold {
                 Some(threshold) => threshold,
-                None => self.threshold(&particles, kernel, &mut notes)?,
+                None => density.threshold(&particles, kernel, &mut notes)?,
             };
             Ok((balls, threshold))
         });
@@ -98,42 +121,16 @@ impl Formula {
 
     /// The kernel that it has unless another is asked for.
     pub fn kernel(self) -> Kernel {
-        match self {
-            Self::Sph(_) => Sph::KERNEL,
-            Self::QuickSurf(_) => QuickSurf::kernel(),
-            Self::Molmap(_) => Molmap::kernel(),
-            Self::GaussianSurface(surface) => surface.kernel(),
-            Self::Splashsurf(_) => Splashsurf::KERNEL,
-        }
+        self.density().kernel()
     }
 
-    fn balls(
-        self,
-        particles: &Particles,
-        kernel: Kernel,
-        notes: &mut Notes,
-    ) -> Result<Balls, Flaw> {
+    fn density(&self) -> &dyn Density {
         match self {
-            Self::Sph(sph) => sph.balls(particles, kernel, notes),
-            Self::QuickSurf(surface) => surface.balls(particles, kernel, notes),
-            Self::Molmap(map) => map.balls(particles, kernel, notes),
-            Self::GaussianSurface(surface) => surface.balls(particles, kernel, notes),
-            Self::Splashsurf(density) => density.balls(particles, kernel, notes),
-        }
-    }
-
-    fn threshold(
-        self,
-        particles: &Particles,
-        kernel: Kernel,
-        notes: &mut Notes,
-    ) -> Result<f32, Flaw> {
-        match self {
-            Self::Sph(sph) => Ok(sph.threshold(notes)),
-            Self::QuickSurf(surface) => surface.threshold(kernel, notes),
-            Self::Molmap(map) => map.threshold(particles, kernel, notes),
-            Self::GaussianSurface(surface) => surface.threshold(kernel, notes),
-            Self::Splashsurf(density) => Ok(density.threshold(notes)),
+            Self::Sph(sph) => sph,
+            Self::QuickSurf(surface) => surface,
+            Self::Molmap(map) => map,
+            Self::GaussianSurface(surface) => surface,
+            Self::Splashsurf(density) => density,
         }
     }
 

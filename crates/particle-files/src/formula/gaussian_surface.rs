@@ -3,7 +3,7 @@
 use metaball_core::Kernel;
 
 use super::gaussians::{Gaussians, cut_near};
-use super::{Balls, radii_of_atoms, range_in_words};
+use super::{Density, SizedBalls, radii_of_atoms, range_in_words};
 use crate::error::Flaw;
 use crate::notes::Notes;
 use crate::particles::Particles;
@@ -29,17 +29,19 @@ impl Default for GaussianSurface {
 
 impl GaussianSurface {
     const NAME: &str = "gaussian-surface";
+}
 
-    pub(super) fn kernel(self) -> Kernel {
+impl Density for GaussianSurface {
+    fn kernel(&self) -> Kernel {
         cut_near(2.0 * (2.0 * self.smoothness).sqrt())
     }
 
-    pub(super) fn balls(
-        self,
+    fn balls(
+        &self,
         particles: &Particles,
         kernel: Kernel,
         notes: &mut Notes,
-    ) -> Result<Balls, Flaw> {
+    ) -> Result<SizedBalls, Flaw> {
         let gaussians = Gaussians::of(kernel, Self::NAME)?;
         let own = radii_of_atoms(particles, Self::NAME)?;
         let offset = self.radius_offset as f32;
@@ -61,10 +63,18 @@ impl GaussianSurface {
             (f64::from(*radius) + self.radius_offset) / (2.0 * self.smoothness).sqrt()
         };
         let radii = own.iter().map(|radius| gaussians.support(deviation(radius)));
-        Ok(Balls { radii: radii.collect(), strengths: vec![gaussians.strength(1.0); own.len()] })
+        Ok(SizedBalls {
+            radii: radii.collect(),
+            strengths: vec![gaussians.strength(1.0); own.len()],
+        })
     }
 
-    pub(super) fn threshold(self, kernel: Kernel, notes: &mut Notes) -> Result<f32, Flaw> {
+    fn threshold(
+        &self,
+        _particles: &Particles,
+        kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<f32, Flaw> {
         let gaussians = Gaussians::of(kernel, Self::NAME)?;
         let isovalue = (-self.smoothness).exp();
         let threshold = gaussians.threshold(isovalue)?;

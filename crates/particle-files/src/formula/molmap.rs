@@ -6,8 +6,8 @@ use glam::{DVec3, UVec3};
 use metaball_core::Kernel;
 use rayon::prelude::*;
 
-use super::Balls;
 use super::gaussians::{Gaussians, cut_near};
+use super::{Density, SizedBalls};
 use crate::error::Flaw;
 use crate::interpret::{column_of, elements_of};
 use crate::notes::Notes;
@@ -33,10 +33,6 @@ impl Molmap {
     const NAME: &str = "molmap";
     const SHOWN_PART: f64 = 0.95;
 
-    pub(super) fn kernel() -> Kernel {
-        cut_near(5.0)
-    }
-
     /// σ, ångströms.
     fn deviation(self) -> f64 {
         self.resolution / (PI * SQRT_2)
@@ -45,44 +41,6 @@ impl Molmap {
     /// A Gaussian's middle for each electron.
     fn normalization(self) -> f64 {
         (2.0 * PI).powf(-1.5) * self.deviation().powi(-3)
-    }
-
-    pub(super) fn balls(
-        self,
-        particles: &Particles,
-        kernel: Kernel,
-        notes: &mut Notes,
-    ) -> Result<Balls, Flaw> {
-        let gaussians = Gaussians::of(kernel, Self::NAME)?;
-        let numbers = atomic_numbers(particles)?;
-        notes.read(format!(
-            "molmap: Gaussians of σ = {:.4} Å for a resolution of {} Å (--resolution), cut at {} σ, with atomic \
-             numbers as weights, in electrons per Å³",
-            self.deviation(),
-            self.resolution,
-            gaussians.cut()
-        ));
-        let strength = |number: &u8| gaussians.strength(f64::from(*number) * self.normalization());
-        Ok(Balls {
-            radii: vec![gaussians.support(self.deviation()); numbers.len()],
-            strengths: numbers.iter().map(strength).collect(),
-        })
-    }
-
-    pub(super) fn threshold(
-        self,
-        particles: &Particles,
-        kernel: Kernel,
-        notes: &mut Notes,
-    ) -> Result<f32, Flaw> {
-        let gaussians = Gaussians::of(kernel, Self::NAME)?;
-        let map = self.map(&particles.positions, &atomic_numbers(particles)?, gaussians.cut())?;
-        let level = level_below(map, Self::SHOWN_PART);
-        notes.read(format!(
-            "T = {level}: 95 % of the map's density is above it, as ChimeraX first shows it (--threshold says \
-             another)"
-        ));
-        Ok(level)
     }
 
     /// The map's values, in no order that matters.
@@ -120,6 +78,50 @@ impl Molmap {
             }
         }
         Ok(map)
+    }
+}
+
+impl Density for Molmap {
+    fn kernel(&self) -> Kernel {
+        cut_near(5.0)
+    }
+
+    fn balls(
+        &self,
+        particles: &Particles,
+        kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<SizedBalls, Flaw> {
+        let gaussians = Gaussians::of(kernel, Self::NAME)?;
+        let numbers = atomic_numbers(particles)?;
+        notes.read(format!(
+            "molmap: Gaussians of σ = {:.4} Å for a resolution of {} Å (--resolution), cut at {} σ, with atomic \
+             numbers as weights, in electrons per Å³",
+            self.deviation(),
+            self.resolution,
+            gaussians.cut()
+        ));
+        let strength = |number: &u8| gaussians.strength(f64::from(*number) * self.normalization());
+        Ok(SizedBalls {
+            radii: vec![gaussians.support(self.deviation()); numbers.len()],
+            strengths: numbers.iter().map(strength).collect(),
+        })
+    }
+
+    fn threshold(
+        &self,
+        particles: &Particles,
+        kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<f32, Flaw> {
+        let gaussians = Gaussians::of(kernel, Self::NAME)?;
+        let map = self.map(&particles.positions, &atomic_numbers(particles)?, gaussians.cut())?;
+        let level = level_below(map, Self::SHOWN_PART);
+        notes.read(format!(
+            "T = {level}: 95 % of the map's density is above it, as ChimeraX first shows it (--threshold says \
+             another)"
+        ));
+        Ok(level)
     }
 }
 

@@ -3,7 +3,7 @@
 use metaball_core::Kernel;
 
 use super::gaussians::{Gaussians, cut_near};
-use super::{Balls, radii_of_atoms, range_in_words};
+use super::{Density, SizedBalls, radii_of_atoms, range_in_words};
 use crate::error::Flaw;
 use crate::notes::Notes;
 use crate::particles::Particles;
@@ -19,17 +19,19 @@ pub struct QuickSurf;
 impl QuickSurf {
     const NAME: &str = "quicksurf";
     const ISOVALUE: f64 = 0.5;
+}
 
-    pub(super) fn kernel() -> Kernel {
+impl Density for QuickSurf {
+    fn kernel(&self) -> Kernel {
         cut_near(4.0)
     }
 
-    pub(super) fn balls(
-        self,
+    fn balls(
+        &self,
         particles: &Particles,
         kernel: Kernel,
         notes: &mut Notes,
-    ) -> Result<Balls, Flaw> {
+    ) -> Result<SizedBalls, Flaw> {
         let gaussians = Gaussians::of(kernel, Self::NAME)?;
         let deviations = radii_of_atoms(particles, Self::NAME)?;
         notes.read(format!(
@@ -40,10 +42,15 @@ impl QuickSurf {
         ));
         let radii = deviations.iter().map(|radius| gaussians.support(f64::from(*radius)));
         let strengths = vec![gaussians.strength(1.0); deviations.len()];
-        Ok(Balls { radii: radii.collect(), strengths })
+        Ok(SizedBalls { radii: radii.collect(), strengths })
     }
 
-    pub(super) fn threshold(self, kernel: Kernel, notes: &mut Notes) -> Result<f32, Flaw> {
+    fn threshold(
+        &self,
+        _particles: &Particles,
+        kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<f32, Flaw> {
         let gaussians = Gaussians::of(kernel, Self::NAME)?;
         let threshold = gaussians.threshold(Self::ISOVALUE)?;
         notes.read(format!(

@@ -2,7 +2,7 @@
 
 use metaball_core::Kernel;
 
-use super::{Balls, range_in_words, volumes};
+use super::{Density, SizedBalls, range_in_words, volumes};
 use crate::error::Flaw;
 use crate::interpret::numbers;
 use crate::notes::Notes;
@@ -31,27 +31,6 @@ pub struct Sph {
 const LENGTH_PER_SPACING: f64 = 1.3;
 
 impl Sph {
-    pub(super) const KERNEL: Kernel = Kernel::CubicSpline;
-    const THRESHOLD: f32 = 0.5;
-
-    pub(super) fn balls(
-        self,
-        particles: &Particles,
-        kernel: Kernel,
-        notes: &mut Notes,
-    ) -> Result<Balls, Flaw> {
-        let radii = self.support_radii(particles, kernel, notes)?;
-        let volumes = self.volumes(particles, &radii, kernel, notes)?;
-        Ok(interpolant(radii, &volumes, kernel))
-    }
-
-    pub(super) fn threshold(self, notes: &mut Notes) -> f32 {
-        notes.read(
-            "T = 0.5: half of the field inside, where a fluid ends (--threshold says another)",
-        );
-        Self::THRESHOLD
-    }
-
     /// The support radius of each particle.
     fn support_radii(
         self,
@@ -142,14 +121,43 @@ impl Sph {
     }
 }
 
+impl Density for Sph {
+    fn kernel(&self) -> Kernel {
+        Kernel::CubicSpline
+    }
+
+    fn balls(
+        &self,
+        particles: &Particles,
+        kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<SizedBalls, Flaw> {
+        let radii = self.support_radii(particles, kernel, notes)?;
+        let volumes = self.volumes(particles, &radii, kernel, notes)?;
+        Ok(interpolant(radii, &volumes, kernel))
+    }
+
+    fn threshold(
+        &self,
+        _particles: &Particles,
+        _kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<f32, Flaw> {
+        notes.read(
+            "T = 0.5: half of the field inside, where a fluid ends (--threshold says another)",
+        );
+        Ok(0.5)
+    }
+}
+
 /// The balls V·W.
-pub(super) fn interpolant(radii: Vec<f32>, volumes: &[f64], kernel: Kernel) -> Balls {
+pub(super) fn interpolant(radii: Vec<f32>, volumes: &[f64], kernel: Kernel) -> SizedBalls {
     let normalization = kernel.normalization();
     let strength = |(volume, radius): (&f64, &f32)| {
         (volume * normalization / f64::from(*radius).powi(3)) as f32
     };
     let strengths = volumes.iter().zip(&radii).map(strength).collect();
-    Balls { radii, strengths }
+    SizedBalls { radii, strengths }
 }
 
 /// Half of the spacing around each particle, as the file has radii or by the spacing of all; `None` where

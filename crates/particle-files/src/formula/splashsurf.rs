@@ -3,7 +3,7 @@
 use metaball_core::Kernel;
 
 use super::sph::{interpolant, particle_radii};
-use super::{Balls, range_in_words, volumes};
+use super::{Density, SizedBalls, range_in_words, volumes};
 use crate::error::Flaw;
 use crate::notes::Notes;
 use crate::particles::Particles;
@@ -26,16 +26,17 @@ impl Default for Splashsurf {
     }
 }
 
-impl Splashsurf {
-    pub(super) const KERNEL: Kernel = Kernel::CubicSpline;
-    const THRESHOLD: f32 = 0.6;
+impl Density for Splashsurf {
+    fn kernel(&self) -> Kernel {
+        Kernel::CubicSpline
+    }
 
-    pub(super) fn balls(
-        self,
+    fn balls(
+        &self,
         particles: &Particles,
         kernel: Kernel,
         notes: &mut Notes,
-    ) -> Result<Balls, Flaw> {
+    ) -> Result<SizedBalls, Flaw> {
         let radii: Vec<f32> = match particle_radii(particles) {
             Some(radii) => {
                 let support = |radius: &f32| (2.0 * self.smoothing_length) as f32 * radius;
@@ -56,8 +57,13 @@ impl Splashsurf {
         Ok(interpolant(radii, &volumes, kernel))
     }
 
-    pub(super) fn threshold(self, notes: &mut Notes) -> f32 {
+    fn threshold(
+        &self,
+        _particles: &Particles,
+        _kernel: Kernel,
+        notes: &mut Notes,
+    ) -> Result<f32, Flaw> {
         notes.read("T = 0.6: splashsurf's surface threshold (--threshold says another)");
-        Self::THRESHOLD
+        Ok(0.6)
     }
 }
