@@ -1,6 +1,7 @@
 //! `cargo xtask test`: everything that must hold before a change is taken.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 use std::{env, fs};
 
 use crate::adapter::{self, Adapter};
@@ -12,11 +13,11 @@ use crate::run::{cargo, quieten, say, succeeds, to_the_end};
 /// is found by the next as a freshly packed archive.
 const PUBLISHED: [&str; 3] = ["metaball-shaders", "metaball-core", "fbvh"];
 
-/// One thing to check: what it is called, cargo's arguments, and an environment variable.
+/// One thing to check: what it is called, cargo's arguments, and environment variables.
 struct Step {
     title: &'static str,
     arguments: Vec<&'static str>,
-    environment: Option<(&'static str, &'static str)>,
+    environment: Vec<(&'static str, &'static str)>,
 }
 
 /// Runs all steps, the quick ones first, and stops at the first that fails. Arguments go to
@@ -42,9 +43,9 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
         let mut command = cargo();
         command.args(&step.arguments).envs(step.environment);
         quieten(&mut command);
-        to_the_end(&mut command)?;
+        timed(|| to_the_end(&mut command))?;
     }
-    python::test()?;
+    timed(python::test)?;
     if succeeds("cargo", &["deny", "--version"]) {
         say("── licences, bans and sources");
         to_the_end(cargo().args(["deny", "check", "licenses", "bans", "sources"]))?;
@@ -58,6 +59,14 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
             so they have not passed; install one as said above"
             .to_owned()),
     }
+}
+
+/// Says how long a step took, so that whoever waits sees for what.
+fn timed(step: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
+    let start = Instant::now();
+    let result = step();
+    say(&format!("   {:.0} s", start.elapsed().as_secs_f64()));
+    result
 }
 
 /// A method in a crate of its own, outside of the workspace. It takes the workspace's versions of
@@ -98,26 +107,27 @@ fn steps(gpu: Option<(&'static str, &'static str)>) -> Vec<Step> {
     let mut own =
         vec!["test", "--quiet", "--manifest-path", OWN_METHOD, "--target-dir", TARGET, "--"];
     own.extend(gpu.map(|_| "--include-ignored"));
-    let step = |title, arguments: &[&'static str], environment| Step {
+    let step = |title, arguments: &[&'static str], environment: &[_]| Step {
         title,
         arguments: arguments.to_vec(),
-        environment,
+        environment: environment.to_vec(),
     };
     vec![
-        step("formatting", &["fmt", "--all", "--check"], None),
-        step("formatting of a method of one's own", &OWN_FORMATTING, None),
+        step("formatting", &["fmt", "--all", "--check"], &[]),
+        step("formatting of a method of one's own", &OWN_FORMATTING, &[]),
         step(
             "lints",
             &["clippy", "--workspace", "--all-targets", "--all-features", "--", "-Dwarnings"],
-            None,
+            &[],
         ),
-        step("tests", &["test", "--workspace", "--all-features", "--no-fail-fast"], gpu),
-        step("a method of one's own", &own, gpu),
+        step("tests", &["test", "--workspace", "--all-features", "--no-fail-fast"], gpu.as_slice()),
+        step("a method of one's own", &own, gpu.as_slice()),
         step(
             "documentation",
             &["doc", "--workspace", "--all-features", "--no-deps"],
-            Some(("RUSTDOCFLAGS", "-Dwarnings")),
+            &[("RUSTDOCFLAGS", "-Dwarnings")],
         ),
-        step("packages", &package, None),
+        // They are compiled, and nothing of them is run.
+        step("packages", &package, &[("CARGO_PROFILE_DEV_OPT_LEVEL", "0")]),
     ]
 }
