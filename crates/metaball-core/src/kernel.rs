@@ -9,7 +9,8 @@ use std::str::FromStr;
 use thiserror::Error;
 
 pub use self::profile::{
-    CubicSpline, Gaussian, Profile, QuinticSpline, WendlandC2, WendlandC4, WendlandC6,
+    AnyProfile, CubicSpline, Gaussian, Power, Profile, QuinticSpline, WendlandC2, WendlandC4,
+    WendlandC6, Wyvill,
 };
 pub use self::real::Real;
 use crate::Metaball;
@@ -101,48 +102,6 @@ pub enum Kernel {
     Gaussian(Cut),
 }
 
-/// A computation that is compiled for each profile.
-pub trait ByProfile {
-    /// What comes of it.
-    type Output;
-
-    /// Runs it.
-    fn run<P: Profile>(self, profile: P) -> Self::Output;
-}
-
-/// What an expression gives for the profile of a kernel that has one.
-macro_rules! by_profile {
-    ($kernel:expr, $profile:ident => $result:expr, else $otherwise:expr) => {
-        match $kernel {
-            Kernel::Power(_) | Kernel::Wyvill | Kernel::Perlin => $otherwise,
-            Kernel::CubicSpline => {
-                let $profile = CubicSpline;
-                $result
-            }
-            Kernel::QuinticSpline => {
-                let $profile = QuinticSpline;
-                $result
-            }
-            Kernel::WendlandC2 => {
-                let $profile = WendlandC2;
-                $result
-            }
-            Kernel::WendlandC4 => {
-                let $profile = WendlandC4;
-                $result
-            }
-            Kernel::WendlandC6 => {
-                let $profile = WendlandC6;
-                $result
-            }
-            Kernel::Gaussian(cut) => {
-                let $profile = cut.profile();
-                $result
-            }
-        }
-    };
-}
-
 /// An exponent that no power kernel has.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("kernel exponent: needed an integer from 1 to 8, found {found}")]
@@ -218,10 +177,20 @@ impl Kernel {
         (1..=8).map(|exponent| Self::Power(Exponent(exponent))).chain(others)
     }
 
-    /// Runs a computation for the kernel's profile; `None` for a power kernel, Wyvill's and Perlin's.
-    #[inline(always)]
-    pub fn with_profile<C: ByProfile>(self, computation: C) -> Option<C::Output> {
-        by_profile!(self, profile => Some(computation.run(profile)), else None)
+    /// The profile; `None` for Perlin's kernel, which is not convex in v.
+    #[inline]
+    pub fn profile(self) -> Option<AnyProfile> {
+        Some(match self {
+            Self::Perlin => return None,
+            Self::Power(exponent) => AnyProfile::Power(Power(exponent)),
+            Self::Wyvill => AnyProfile::Wyvill(Wyvill),
+            Self::CubicSpline => AnyProfile::CubicSpline(CubicSpline),
+            Self::QuinticSpline => AnyProfile::QuinticSpline(QuinticSpline),
+            Self::WendlandC2 => AnyProfile::WendlandC2(WendlandC2),
+            Self::WendlandC4 => AnyProfile::WendlandC4(WendlandC4),
+            Self::WendlandC6 => AnyProfile::WendlandC6(WendlandC6),
+            Self::Gaussian(cut) => AnyProfile::Gaussian(cut.profile()),
+        })
     }
 
     /// The kernel at `squared_ratio` = r²/R². In \[0, 1\]; 0 from the support radius on.
@@ -238,7 +207,7 @@ impl Kernel {
                 // 1 − ρ = v/(1 + ρ): no cancellation at the rim.
                 (v / (1.0 + rho)).powi(3) * (1.0 + 3.0 * rho + 6.0 * squared_ratio)
             }
-            _ => by_profile!(self, profile => profile.value(v), else 0.0),
+            _ => self.profile().map_or(0.0, |profile| profile.value(v)),
         }
     }
 
@@ -260,7 +229,7 @@ impl Kernel {
                 let rho = squared_ratio.max(0.0).sqrt();
                 -15.0 * rho * (v / (1.0 + rho)).powi(2)
             }
-            _ => -by_profile!(self, profile => profile.slope(v), else 0.0),
+            _ => self.profile().map_or(0.0, |profile| -profile.slope(v)),
         }
     }
 
@@ -305,7 +274,7 @@ impl Kernel {
                 let rest = v / (1.0 + rho);
                 rest * rest * rest * (1.0 + 3.0 * rho + 6.0 * rho * rho)
             }
-            _ => by_profile!(self, profile => profile.value(v), else 0.0),
+            _ => self.profile().map_or(0.0, |profile| profile.value(v)),
         }
     }
 
@@ -323,7 +292,7 @@ impl Kernel {
                 let rest = v / (1.0 + rho);
                 15.0 * rho * rest * rest
             }
-            _ => by_profile!(self, profile => profile.slope(v), else 0.0),
+            _ => self.profile().map_or(0.0, |profile| profile.slope(v)),
         }
     }
 

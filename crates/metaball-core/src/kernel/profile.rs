@@ -1,5 +1,6 @@
 //! Kernels of simulations: falloffs that are convex in v = 1 − r²/R², and mostly no polynomials of it.
 
+use super::Exponent;
 use super::real::Real;
 
 /// A falloff k(v) on 0 ≤ v ≤ 1, from 0 at the rim to 1 at the centre.
@@ -16,6 +17,12 @@ pub trait Profile: Copy + Send + Sync {
 
     /// dk/dv, for v ≥ 0.
     fn slope<R: Real>(self, v: R) -> R;
+
+    /// Both.
+    #[inline(always)]
+    fn value_and_slope<R: Real>(self, v: R) -> (R, R) {
+        (self.value(v), self.slope(v))
+    }
 
     /// d²k/dv², for v ≥ 0; for some it is infinite at v = 1.
     fn bend<R: Real>(self, v: R) -> R;
@@ -42,6 +49,71 @@ pub(super) fn power<R: Real, const EXPONENT: usize>(x: R) -> R {
         6 => square * square * square,
         7 => square * square * square * x,
         _ => (square * square) * (square * square),
+    }
+}
+
+/// v^α: the power kernels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Power(pub Exponent);
+
+impl Power {
+    /// α, and α − n factors v.
+    #[inline(always)]
+    fn without<R: Real>(self, v: R, factors: u8) -> (f64, R) {
+        let exponent = self.0.get();
+        let product = (factors..exponent).fold(R::of(1.0), |product, _| product * v);
+        (exponent.into(), product)
+    }
+}
+
+impl Profile for Power {
+    #[inline(always)]
+    fn value<R: Real>(self, v: R) -> R {
+        self.without(v, 0).1
+    }
+
+    #[inline(always)]
+    fn slope<R: Real>(self, v: R) -> R {
+        let (exponent, product) = self.without(v, 1);
+        product * R::of(exponent)
+    }
+
+    #[inline(always)]
+    fn bend<R: Real>(self, v: R) -> R {
+        let (exponent, product) = self.without(v, 2);
+        product * R::of(exponent * (exponent - 1.0))
+    }
+
+    /// At v = (α − 2)/(α − 1).
+    fn peak(self) -> (f64, f64) {
+        let exponent = f64::from(self.0.get());
+        let at = if exponent > 2.0 { (exponent - 2.0) / (exponent - 1.0) } else { 0.0 };
+        ((1.0 - at) * self.bend(at), at)
+    }
+}
+
+/// Wyvill's v²(5 + 4v)/9.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wyvill;
+
+impl Profile for Wyvill {
+    #[inline(always)]
+    fn value<R: Real>(self, v: R) -> R {
+        v * v * (R::of(5.0) + R::of(4.0) * v) * R::of(1.0 / 9.0)
+    }
+
+    #[inline(always)]
+    fn slope<R: Real>(self, v: R) -> R {
+        v * (R::of(10.0) + R::of(12.0) * v) * R::of(1.0 / 9.0)
+    }
+
+    #[inline(always)]
+    fn bend<R: Real>(self, v: R) -> R {
+        (R::of(10.0) + R::of(24.0) * v) * R::of(1.0 / 9.0)
+    }
+
+    fn peak(self) -> (f64, f64) {
+        (289.0 / 216.0, 7.0 / 24.0)
     }
 }
 
@@ -275,6 +347,62 @@ impl Profile for Gaussian {
     fn peak(self) -> (f64, f64) {
         let away = self.exponent.recip().min(1.0);
         (away * self.bend(1.0 - away), 1.0 - away)
+    }
+}
+
+/// Any of them: code for it is compiled once, and asks which one it is at each value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "each is said at the type that it holds")]
+pub enum AnyProfile {
+    Power(Power),
+    Wyvill(Wyvill),
+    CubicSpline(CubicSpline),
+    QuinticSpline(QuinticSpline),
+    WendlandC2(WendlandC2),
+    WendlandC4(WendlandC4),
+    WendlandC6(WendlandC6),
+    Gaussian(Gaussian),
+}
+
+/// What an expression gives for the profile that it is.
+macro_rules! of_each {
+    ($any:expr, $profile:ident => $result:expr) => {
+        match $any {
+            AnyProfile::Power($profile) => $result,
+            AnyProfile::Wyvill($profile) => $result,
+            AnyProfile::CubicSpline($profile) => $result,
+            AnyProfile::QuinticSpline($profile) => $result,
+            AnyProfile::WendlandC2($profile) => $result,
+            AnyProfile::WendlandC4($profile) => $result,
+            AnyProfile::WendlandC6($profile) => $result,
+            AnyProfile::Gaussian($profile) => $result,
+        }
+    };
+}
+
+impl Profile for AnyProfile {
+    #[inline(always)]
+    fn value<R: Real>(self, v: R) -> R {
+        of_each!(self, profile => profile.value(v))
+    }
+
+    #[inline(always)]
+    fn slope<R: Real>(self, v: R) -> R {
+        of_each!(self, profile => profile.slope(v))
+    }
+
+    #[inline(always)]
+    fn value_and_slope<R: Real>(self, v: R) -> (R, R) {
+        of_each!(self, profile => profile.value_and_slope(v))
+    }
+
+    #[inline(always)]
+    fn bend<R: Real>(self, v: R) -> R {
+        of_each!(self, profile => profile.bend(v))
+    }
+
+    fn peak(self) -> (f64, f64) {
+        of_each!(self, profile => profile.peak())
     }
 }
 

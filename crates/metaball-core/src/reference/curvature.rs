@@ -2,7 +2,7 @@
 
 use super::chord::Bump;
 use crate::Kernel;
-use crate::kernel::{ByProfile, Profile};
+use crate::kernel::{AnyProfile, Profile};
 
 /// Bounds of the kernel's second derivative by u on \[a, b\], in which the ball's chord covers both.
 pub(super) fn curvature(kernel: Kernel, bump: &Bump, a: f64, b: f64) -> (f64, f64) {
@@ -11,7 +11,8 @@ pub(super) fn curvature(kernel: Kernel, bump: &Bump, a: f64, b: f64) -> (f64, f6
     let (at_a, at_b) = (ratio(a), ratio(b));
     let low = if bump.middle > a && bump.middle < b { nearest } else { at_a.min(at_b) };
     let along = Along { nearest, low, high: at_a.max(at_b) };
-    let (least, greatest) = kernel.with_profile(&along).unwrap_or_else(|| along.of_perlin());
+    let (least, greatest) =
+        kernel.profile().map_or_else(|| along.of_perlin(), |profile| along.of(profile));
     (bump.steepness * least, bump.steepness * greatest)
 }
 
@@ -39,14 +40,10 @@ impl Along {
         let greatest = (greatest * thin).max(greatest * thick);
         (-30.0 * greatest, -30.0 * least)
     }
-}
-
-impl ByProfile for &Along {
-    type Output = (f64, f64);
 
     /// With s = ρ² and δ² the least s along the ray, k″ = 4(1 − δ²/s)·s·d²k/dv² − 2dk/dv: the first factor
     /// rises with s, the second one to its peak, and the slope falls.
-    fn run<P: Profile>(self, profile: P) -> (f64, f64) {
+    fn of(&self, profile: AnyProfile) -> (f64, f64) {
         let away = |s: f64| if s > self.nearest { 1.0 - self.nearest / s } else { 0.0 };
         let bent = |s: f64| if s > 0.0 { s * profile.bend(1.0 - s) } else { 0.0 };
         let (at_low, at_high) = (bent(self.low), bent(self.high));

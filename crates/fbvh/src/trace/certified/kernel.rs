@@ -5,9 +5,8 @@ mod power;
 mod wyvill;
 
 use metaball_core::Kernel;
-use metaball_core::kernel::{ByProfile, Profile};
 
-use self::convex::{Convex, HighPower};
+use self::convex::Convex;
 use self::power::Power;
 use self::wyvill::Wyvill;
 use super::lanes::{Lanes, Mask};
@@ -105,35 +104,28 @@ pub(super) trait ByKernel {
 }
 
 /// Runs the computation for the kernel; `None` for Perlin's.
+///
+/// It is compiled for each kernel that is a polynomial of low degree in v, and once for all others, which are
+/// asked which one they are at each value: compiled for each, they took twice the time to build.
 #[inline(always)]
 pub(super) fn by_kernel<C: ByKernel>(kernel: Kernel, computation: C) -> Option<C::Output> {
-    Some(match kernel {
-        Kernel::Wyvill => computation.run(Wyvill),
-        Kernel::Power(exponent) => match exponent.get() {
-            1 => computation.run::<_, 3>(Power),
-            2 => computation.run::<_, 5>(Power),
-            3 => computation.run::<_, 7>(Power),
-            4 => computation.run::<_, 9>(Power),
-            exponent => computation.run(Convex(HighPower(exponent.into()))),
-        },
-        _ => return kernel.with_profile(OfProfile(computation)),
+    let exponent = match kernel {
+        Kernel::Wyvill => return Some(computation.run(Wyvill)),
+        Kernel::Power(exponent) => exponent.get(),
+        _ => 0,
+    };
+    Some(match exponent {
+        1 => computation.run::<_, 3>(Power),
+        2 => computation.run::<_, 5>(Power),
+        3 => computation.run::<_, 7>(Power),
+        4 => computation.run::<_, 9>(Power),
+        _ => computation.run(Convex(kernel.profile()?)),
     })
 }
 
 /// Whether [`by_kernel`] runs for it.
 pub(super) fn has_bounds(kernel: Kernel) -> bool {
     kernel != Kernel::Perlin
-}
-
-struct OfProfile<C>(C);
-
-impl<C: ByKernel> ByProfile for OfProfile<C> {
-    type Output = C::Output;
-
-    #[inline(always)]
-    fn run<P: Profile>(self, profile: P) -> C::Output {
-        self.0.run(Convex(profile))
-    }
 }
 
 /// What the quadratic of [`LaneKernel::quadratic_errors`] misses of functions that are no quadratics, on a range

@@ -9,7 +9,7 @@
 //! dv/dt is positive the lesser one bounds the product from below, where it is negative the greater one: these
 //! two straight lines together are concave, so the line through their ends is nowhere above.
 
-use metaball_core::kernel::{Profile, Real};
+use metaball_core::kernel::{AnyProfile, Profile};
 
 use super::super::lanes::{Lanes, Mask, array_of};
 use super::super::parabolas::UNIT;
@@ -17,42 +17,7 @@ use super::{Bounds, LaneKernel, Missed, Stretch};
 
 /// The kernel of a profile.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Convex<P>(pub(super) P);
-
-/// v^α for α from 5 to 8: products of so many polynomials would take longer.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct HighPower(pub(super) usize);
-
-impl HighPower {
-    /// So many factors v.
-    #[inline(always)]
-    fn product<R: Real>(v: R, factors: usize) -> R {
-        (1..factors).fold(v, |product, _| product * v)
-    }
-}
-
-impl Profile for HighPower {
-    #[inline(always)]
-    fn value<R: Real>(self, v: R) -> R {
-        Self::product(v, self.0)
-    }
-
-    #[inline(always)]
-    fn slope<R: Real>(self, v: R) -> R {
-        Self::product(v, self.0 - 1) * R::of(self.0 as f64)
-    }
-
-    #[inline(always)]
-    fn bend<R: Real>(self, v: R) -> R {
-        Self::product(v, self.0 - 2) * R::of((self.0 * (self.0 - 1)) as f64)
-    }
-
-    /// At v = (α − 2)/(α − 1).
-    fn peak(self) -> (f64, f64) {
-        let at = (self.0 as f64 - 2.0) / (self.0 as f64 - 1.0);
-        ((1.0 - at) * self.bend(at), at)
-    }
-}
+pub(super) struct Convex(pub(super) AnyProfile);
 
 /// What rounding of a profile is worth in v, where it is not a part of the value.
 const OWN_MARGIN: f32 = 16.0 * UNIT;
@@ -61,7 +26,7 @@ const OWN_MARGIN: f32 = 16.0 * UNIT;
 /// each other would be all rounding.
 const SHORT: f32 = 1.0 / 1024.0;
 
-impl<P: Profile> LaneKernel<5> for Convex<P> {
+impl LaneKernel<5> for Convex {
     const BOUNDS_SLOPES: bool = true;
     /// Sixteen units in the last place of 1 in each value and slope (see [`Profile`]), of which differences are
     /// taken twice.
@@ -79,8 +44,8 @@ impl<P: Profile> LaneKernel<5> for Convex<P> {
 
     #[inline(always)]
     fn value_and_slope(self, v: Lanes<f64>) -> (Lanes<f64>, Lanes<f64>) {
-        let slope: Lanes<f64> = self.0.slope(v);
-        (self.0.value(v), v.zip(slope, |v, slope| if v > 0.0 { slope } else { 0.0 }))
+        let (value, slope) = self.0.value_and_slope(v);
+        (value, v.zip(slope, |v, slope| if v > 0.0 { slope } else { 0.0 }))
     }
 
     /// Values and slopes are right to 32u, and their differences to as much of what they are of. These are taken
@@ -95,8 +60,10 @@ impl<P: Profile> LaneKernel<5> for Convex<P> {
         let low = (v.bottom() - margin).max(zero).min(one);
         let high = (v.greatest() + margin).min(one).max(low);
         let profile = self.0;
-        let (at_low, gentlest) = (profile.value(low) * strength, profile.slope(low) * strength);
-        let (at_high, steepest) = (profile.value(high) * strength, profile.slope(high) * strength);
+        let (at_low, gentlest) = profile.value_and_slope(low);
+        let (at_high, steepest) = profile.value_and_slope(high);
+        let (at_low, gentlest) = (at_low * strength, gentlest * strength);
+        let (at_high, steepest) = (at_high * strength, steepest * strength);
         let width = high - low;
         let inverse = width.max(Lanes::splat(SHORT)).map(f32::recip);
         let is_short = width.is_less(Lanes::splat(SHORT));
