@@ -49,8 +49,15 @@ proptest! {
     })]
 
     #[test]
-    fn trees_are_well_formed(scene in scenes::any_scene(60), options in any_options()) {
-        let tree = Tree::build(&scene, &options).expect("legal options");
+    fn trees_are_well_formed(scene in scenes::any_signed_scene(60), options in any_options()) {
+        let negative = scene.negative_ball().filter(|_| options.kind() != Kind::Certified);
+        let built = Tree::build(&scene, &options);
+        if let Some(source) = negative {
+            let refusal = BuildError::NegativeOfPublished { kind: options.kind(), source };
+            prop_assert_eq!(built, Err(refusal));
+            return Ok(());
+        }
+        let tree = built.expect("legal options");
         match tree.validate(&scene) {
             Ok(stats) => {
                 prop_assert!(stats.depth <= options.max_depth);

@@ -17,6 +17,12 @@ pub(super) struct FieldTree<'a, F> {
 }
 
 impl<F: Field> FieldTree<'_, F> {
+    /// Whether a list of the certified tree has negative balls, which come first.
+    #[inline]
+    pub(super) fn has_negative(&self, list: &[u32]) -> bool {
+        list.first().is_some_and(|&ball| self.field.strength(ball as usize) < 0.0)
+    }
+
     /// F along the ray, by the leaf's list. From the ball's centre to the ray's origin first: that
     /// difference is right to a float.
     pub(super) fn value(&self, leaf: usize, ray: &Ray, t: f32, counter: &mut impl Counter) -> f32 {
