@@ -98,6 +98,21 @@ fn the_number_of_threads_does_not_matter() {
     }
 }
 
+/// Where a negative ball reaches nothing, the tree is the one without it to the last bit: what no ball of a box
+/// needs is not paid for.
+#[test]
+fn a_negative_ball_elsewhere_changes_nothing() {
+    let scene = clumps();
+    let with = |center: Vec3| {
+        let negative = Metaball { center, radius: 0.5, strength: -0.3 };
+        let balls = scene.balls().chain([negative]);
+        Scene::new(balls, scene.kernel(), scene.threshold()).expect("legal balls")
+    };
+    let build = |scene: &Scene| Tree::build(scene, &Options::certified()).expect("legal options");
+    assert!(build(&scene) == build(&with(Vec3::splat(-20.0))));
+    assert!(build(&scene) != build(&with(Vec3::splat(3.5))), "a canary among the balls");
+}
+
 #[test]
 fn large_trees_are_well_formed() {
     let scene = clumps();

@@ -204,12 +204,8 @@ impl<F: Field> Traversal<'_, F> {
             return;
         }
         let PacketScratch { single, leaves } = &mut *self.scratch;
-        if list.is_empty() || self.tree.has_negative(list) {
-            self.each(lanes, |traversal, lane| traversal.visit_alone(leaf, lane));
-            return;
-        }
         let polynomial = self.tree.polynomial(self.query, single.arch, leaf, rays);
-        if rays < 2 && polynomial.is_none() {
+        if list.is_empty() || rays < 2 && polynomial.is_none() {
             self.each(lanes, |traversal, lane| traversal.visit_alone(leaf, lane));
             return;
         }

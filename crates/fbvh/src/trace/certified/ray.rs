@@ -195,9 +195,6 @@ impl<F: Field> FieldTree<'_, F> {
         let place = leaf % leaves.len();
         let blocks = &mut leaves[place];
         blocks.load(self.field, leaf, &bounds, list);
-        if self.has_negative(list) {
-            return self.search_ranges(query, leaf, interval, state, scratch, counter);
-        }
         match polynomial::search(query, *arch, blocks, (ray, interval), counter) {
             Answer::Undecided => self.search_ranges(query, leaf, interval, state, scratch, counter),
             answer => self.hit_of(answer, leaf, ray),
