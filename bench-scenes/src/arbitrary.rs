@@ -78,6 +78,20 @@ pub fn arbitrary(seed: u64) -> Result<Scene, SceneError> {
     Scene::new(balls, kernel, threshold as f32)
 }
 
+/// [`arbitrary`] with every third ball negative, from a fifth to one and a half times as strong.
+///
+/// # Errors
+/// As [`arbitrary`].
+pub fn carved(seed: u64) -> Result<Scene, SceneError> {
+    let scene = arbitrary(seed)?;
+    let share = -Random::new(!seed).between(0.2, 1.5) as f32;
+    let balls = scene.balls().enumerate().map(|(index, ball)| Metaball {
+        strength: ball.strength * if index % 3 == 1 { share } else { 1.0 },
+        ..ball
+    });
+    Scene::new(balls, scene.kernel(), scene.threshold())
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sizes {
     Equal,
@@ -118,5 +132,16 @@ mod tests {
         assert!(scenes.iter().any(|scene| scene.len() == 1));
         assert!(scenes.iter().any(|scene| scene.len() > 200));
         assert!(scenes.iter().any(|scene| scene.strengths().is_some()));
+        assert!(scenes.iter().all(|scene| scene.negative_ball().is_none()));
+    }
+
+    #[test]
+    fn a_third_of_a_carved_scene_is_negative() {
+        for seed in 0..50 {
+            let scene = carved(seed).expect("legal");
+            let negative = scene.balls().filter(Metaball::is_negative).count();
+            assert_eq!(negative, (scene.len() + 1) / 3);
+            assert_eq!(scene.supports(), arbitrary(seed).expect("legal").supports());
+        }
     }
 }

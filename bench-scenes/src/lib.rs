@@ -2,7 +2,7 @@
 //!
 //! [`load()`] takes what a user types: a name of [`known()`], a generator's spec
 //! (`tornado:5000:40:7`), or the path of a file, which `particle-files` reads. The [`cases()`] are scenes
-//! with a parameter that is varied until a method breaks, [`arbitrary()`] ones are of any kind, by seed.
+//! with a parameter that is varied until a method breaks, [`arbitrary()`] and [`carved()`] ones are of any kind, by seed.
 //! [`Moving`] scenes have a scene for each frame.
 //! Nothing here knows of any method or GPU.
 //!
@@ -31,7 +31,7 @@ mod random;
 mod small;
 mod vibration;
 
-pub use arbitrary::arbitrary;
+pub use arbitrary::{arbitrary, carved};
 pub use bench_scene::{BenchScene, FileFacts, Kind};
 pub use cases::{Case, Category, Redraw, cases};
 pub use density::mean_overlap;

@@ -89,6 +89,18 @@ pub(super) const CASES: &[Case] = &[
         redraw: None,
         make: kink,
     },
+    Case {
+        name: "carved",
+        category: Category::Shape,
+        about: "A negative ball around the neck of two: it thins it for positive values, and cuts it through for \
+                negative ones.",
+        parameter: "the field in the middle over T, minus 1",
+        values: AROUND_ZERO,
+        quick: &[1e-3],
+        size: SIZE,
+        redraw: None,
+        make: carved,
+    },
 ];
 
 /// Two balls so far to either side of the origin along x.
@@ -113,6 +125,17 @@ fn neck(value: f64) -> Result<Shot, LoadError> {
     let each = 0.5 * f64::from(THRESHOLD) * (1.0 + value);
     let ratio = Kernel::QUARTIC.ratio_at(each).unwrap_or(1.0);
     Ok((pair(ratio)?, looking(Vec3::new(0.3, 0.2, 2.0), Vec3::ZERO)?))
+}
+
+/// The negative ball is so wide that it is the neck's middle where the field is least.
+fn carved(value: f64) -> Result<Shot, LoadError> {
+    const HALF_DISTANCE: f64 = 0.7;
+    const RADIUS: f32 = 2.0;
+    let added = 2.0 * Kernel::QUARTIC.value(HALF_DISTANCE * HALF_DISTANCE);
+    let taken = added - f64::from(THRESHOLD) * (1.0 + value);
+    let negative = Metaball { center: Vec3::ZERO, radius: RADIUS, strength: -taken as f32 };
+    let scene = quartic(pair(HALF_DISTANCE)?.balls().chain([negative]))?;
+    Ok((scene, looking(Vec3::new(0.3, 0.2, 4.0), Vec3::ZERO)?))
 }
 
 fn sheet(value: f64) -> Result<Shot, LoadError> {

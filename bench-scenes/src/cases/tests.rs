@@ -90,7 +90,8 @@ fn kinks_are_as_near_surfaces_as_they_say() {
 /// The roundings of centres and T to f32, 6e-8 each, times slopes up to 4.
 #[test]
 fn necks_and_sheets_are_as_thin_as_they_say() {
-    for (name, point) in [("neck", DVec3::ZERO), ("sheet", DVec3::new(0.6, 0.6, 0.0))] {
+    let middle = DVec3::new(0.6, 0.6, 0.0);
+    for (name, point) in [("neck", DVec3::ZERO), ("sheet", middle), ("carved", DVec3::ZERO)] {
         for &value in case(name).values {
             let scene = case(name).scene(value).expect("legal").scene;
             let found = field(&scene, point) / f64::from(scene.threshold()) - 1.0;

@@ -15,7 +15,7 @@ mod part;
 mod plane;
 mod pool;
 
-use metaball_core::{Aabb, Kernel, Metaball, SceneError, check_ball, check_field};
+use metaball_core::{Aabb, Kernel, Metaball, NegativeBall, SceneError, check_ball, check_field};
 use rayon::prelude::*;
 
 use self::ball::{Ball, bounds_of};
@@ -41,13 +41,18 @@ impl Tree {
     /// the same bit for bit whatever the number of threads.
     ///
     /// # Errors
-    /// [`BuildError`]: names the ball that is not legal, the option that is out of range, or how many
+    /// [`BuildError`]: names the ball that is not legal or not in such a tree, the option that is out of range, or how many
     /// list entries were too many.
     pub fn build(field: &impl Field, options: &Options) -> Result<Self, BuildError> {
         if !(2..=MAX_BINS as u32).contains(&options.bins) {
             return Err(BuildError::Bins { found: options.bins });
         }
-        let balls = copy(field)?;
+        let mut balls = copy(field)?;
+        let has_negative = balls.par_iter().any(Ball::is_negative);
+        if has_negative {
+            options.check_negative(&balls)?;
+            balls.par_sort_by_key(|ball| !ball.is_negative());
+        }
         let builder = Builder {
             kernel: field.kernel(),
             threshold: field.threshold(),
@@ -55,6 +60,7 @@ impl Tree {
             radius: common(&balls, Ball::radius),
             strength: common(&balls, |ball| ball.strength),
             greatest_strength: greatest_strength(&balls),
+            has_negative,
             options: *options,
             grown: GrownPieces::default(),
         };
@@ -90,10 +96,10 @@ fn common(balls: &[Ball], value: impl Fn(&Ball) -> f32 + Sync) -> Option<f32> {
 }
 
 fn greatest_strength(balls: &[Ball]) -> f32 {
-    balls.par_iter().map(|ball| ball.strength).reduce(|| 0.0, f32::max)
+    balls.par_iter().map(|ball| ball.strength.abs()).reduce(|| 0.0, f32::max)
 }
 
-/// What the divisions of all nodes share.
+/// What the divisions of all nodes share. Lists hold negative balls before the others.
 struct Builder {
     kernel: Kernel,
     threshold: f32,
@@ -102,12 +108,36 @@ struct Builder {
     radius: Option<f32>,
     /// Their strength, likewise.
     strength: Option<f32>,
+    /// The greatest of their sizes.
     greatest_strength: f32,
+    /// Whether any ball is negative.
+    has_negative: bool,
     options: Options,
     grown: GrownPieces,
 }
 
+impl Options {
+    /// Whether a tree with these options can be built of balls some of which are negative.
+    fn check_negative(&self, balls: &[Ball]) -> Result<(), BuildError> {
+        let kind = self.kind();
+        let negative = balls.iter().find(|ball| ball.is_negative());
+        match negative.filter(|_| kind.is_published()) {
+            Some(ball) => {
+                let source = NegativeBall { index: ball.index as usize, found: ball.strength };
+                Err(BuildError::NegativeOfPublished { kind, source })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
 impl Builder {
+    /// Those of a list that take away from the field, and those that add to it.
+    fn by_sign<'b>(&self, list: &'b [Ball]) -> (&'b [Ball], &'b [Ball]) {
+        let negative = if self.has_negative { list.partition_point(Ball::is_negative) } else { 0 };
+        list.split_at(negative)
+    }
+
     /// Builds the tree of all balls, if there is any surface.
     fn root(&self, mut balls: Vec<Ball>, branch: &mut Branch) -> Option<(u32, Aabb)> {
         let bounds = bounds_of(&balls);

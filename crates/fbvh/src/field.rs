@@ -34,7 +34,7 @@ pub trait Field: Sync {
     /// Centre and support radius of a ball, `ball < ball_count()`, world space, scene units.
     fn support(&self, ball: usize) -> Support;
 
-    /// Strength q > 0 of a ball, in units of the field; 1 by default.
+    /// Strength q of a ball, not 0, in units of the field; 1 by default.
     fn strength(&self, ball: usize) -> f32 {
         let _ = ball;
         1.0

@@ -2,7 +2,7 @@
 //! is wrong, and the two structures of Gourmel, Pajot, Paulin, Barthe and Poulin 2010, *Fitted BVH for
 //! Fast Raytracing of Metaballs*.
 //!
-//! Metaballs add up to a field; the surface is where it equals a threshold T. Build a [`Tree`] of the
+//! Metaballs add up to a field, from which negative ones take away; the surface is where it equals a threshold T. Build a [`Tree`] of the
 //! balls once, then trace rays through it with a [`Tracer`], or upload its arrays and use the shaders.
 //!
 //! ```
@@ -29,7 +29,7 @@
 //!   [`Undecided`](metaball_core::Verdict::Undecided) where arithmetic cannot decide, and its lists do
 //!   not grow with density. It alone knows where rays leave the solid.
 //! - [`Options::fitted`] and [`Options::modified_bvh`] are the published structures, for comparison.
-//!   Nearly tangent rays may miss the surface, and lists grow with density.
+//!   Nearly tangent rays may miss the surface, lists grow with density, and negative balls are refused.
 //!
 //! A tree is for one kernel and one threshold, since boxes and lists depend on them. Building is
 //! parallel, divides its lists in place, and makes the same tree bit for bit whatever the number of

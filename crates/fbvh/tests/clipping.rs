@@ -275,7 +275,7 @@ proptest! {
     /// From outside and inside of the region and the solid; alone, in packets, and in a picture.
     #[test]
     fn cut_solids_are_the_oracles(
-        scene in scenes::any_scene(40),
+        scene in scenes::any_signed_scene(40),
         region in region(),
         eye in point(6.0),
         targets in prop::collection::vec(point(3.0), 32),

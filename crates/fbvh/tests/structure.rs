@@ -49,8 +49,15 @@ proptest! {
     })]
 
     #[test]
-    fn trees_are_well_formed(scene in scenes::any_scene(60), options in any_options()) {
-        let tree = Tree::build(&scene, &options).expect("legal options");
+    fn trees_are_well_formed(scene in scenes::any_signed_scene(60), options in any_options()) {
+        let negative = scene.negative_ball().filter(|_| options.kind() != Kind::Certified);
+        let built = Tree::build(&scene, &options);
+        if let Some(source) = negative {
+            let refusal = BuildError::NegativeOfPublished { kind: options.kind(), source };
+            prop_assert_eq!(built, Err(refusal));
+            return Ok(());
+        }
+        let tree = built.expect("legal options");
         match tree.validate(&scene) {
             Ok(stats) => {
                 prop_assert!(stats.depth <= options.max_depth);
@@ -89,6 +96,21 @@ fn the_number_of_threads_does_not_matter() {
         assert_eq!(trees[0], trees[1]);
         assert_eq!(trees[0], trees[2]);
     }
+}
+
+/// Where a negative ball reaches nothing, the tree is the one without it to the last bit: what no ball of a box
+/// needs is not paid for.
+#[test]
+fn a_negative_ball_elsewhere_changes_nothing() {
+    let scene = clumps();
+    let with = |center: Vec3| {
+        let negative = Metaball { center, radius: 0.5, strength: -0.3 };
+        let balls = scene.balls().chain([negative]);
+        Scene::new(balls, scene.kernel(), scene.threshold()).expect("legal balls")
+    };
+    let build = |scene: &Scene| Tree::build(scene, &Options::certified()).expect("legal options");
+    assert!(build(&scene) == build(&with(Vec3::splat(-20.0))));
+    assert!(build(&scene) != build(&with(Vec3::splat(3.5))), "a canary among the balls");
 }
 
 #[test]

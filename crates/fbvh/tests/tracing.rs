@@ -480,7 +480,7 @@ proptest! {
     /// third of the rays start there. Each ray ends early once, and starts late once.
     #[test]
     fn certain_answers_are_the_oracles(
-        scene in scenes::any_scene(40),
+        scene in scenes::any_signed_scene(40),
         scale in prop::sample::select(vec![1e-4f32, 1.0, 1e6]),
         eye in [-1.0f32..1.0, -1.0f32..1.0, -1.0f32..1.0],
         distance in prop::sample::select(vec![5.0f32, 100.0, 1e4]),

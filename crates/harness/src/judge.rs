@@ -289,7 +289,7 @@ impl<'a> Judge<'a> {
 /// (WGSL may round either way) for the difference, the product and the sum; call it e. Then
 /// v = 1 − |offset|²/R² is wrong by 2e/R + 6u inside the support: three squares and two sums, a
 /// square, a division and the last difference. The field follows with q·k′; the sum of n terms adds
-/// n·u·F. The gradient's term −2q·k′·offset/R² is wrong by as much as its own size times
+/// n·u·Σ|q|k. The gradient's term −2q·k′·offset/R² is wrong by as much as its own size times
 /// (k″/k′)·δv + e/R + 5u, and k″δv is at most 56δv for the steepest kernel (α = 8).
 struct Rounding {
     of_field: f64,
@@ -303,7 +303,7 @@ impl Rounding {
     fn at(scene: &Scene, ray: &Ray, t: f64) -> Self {
         let unit = f64::from(f32::EPSILON);
         let kernel = scene.kernel();
-        let (mut of_field, mut steepest, mut field, mut count) = (0.0, 0.0, 0.0, 0.0);
+        let (mut of_field, mut steepest, mut sizes, mut count) = (0.0, 0.0, 0.0, 0.0);
         let (mut gradient, mut of_gradient) = (glam::DVec3::ZERO, 0.0);
         for ball in scene.balls() {
             let from_center = ray.origin.as_dvec3() - ball.center.as_dvec3();
@@ -318,14 +318,15 @@ impl Rounding {
             }
             let slope = kernel.slope(squared_ratio).abs();
             count += 1.0;
-            field += strength * kernel.value(squared_ratio);
-            steepest += 2.0 * strength * slope / radius;
-            of_field += strength * (slope * of_v + 28.0 * of_v * of_v);
+            let size = strength.abs();
+            sizes += size * kernel.value(squared_ratio);
+            steepest += 2.0 * size * slope / radius;
+            of_field += size * (slope * of_v + 28.0 * of_v * of_v);
             gradient += 2.0 * strength * slope / (radius * radius) * offset;
-            of_gradient += 2.0 * strength / radius
+            of_gradient += 2.0 * size / radius
                 * (56.0 * of_v + slope * (of_offset / radius + (5.0 + count) * unit));
         }
         let of_normal = if gradient.length() > 0.0 { of_gradient / gradient.length() } else { 1.0 };
-        Self { of_field: of_field + count * unit * field, slope: steepest, of_normal }
+        Self { of_field: of_field + count * unit * sizes, slope: steepest, of_normal }
     }
 }

@@ -136,6 +136,7 @@ impl IsoRenderer for Renderer {
 
     fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError> {
         self.balls = None;
+        RenderError::check_positive(self.name, scene)?;
         let piece = self.options.piece;
         if let Some(reason) = piece.refusal(scene.kernel()) {
             return Err(RenderError::Unsupported { method: self.name, reason });

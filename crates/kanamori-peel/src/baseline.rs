@@ -27,7 +27,9 @@ mod normal;
 
 use std::time::{Duration, Instant};
 
-use metaball_core::{Hit, HostError, HostMethod, HostRenderer, Kernel, Ray, Scene, Verdict};
+use metaball_core::{
+    Hit, HostError, HostMethod, HostRenderer, Kernel, NegativeBall, Ray, Scene, Verdict,
+};
 use rayon::prelude::*;
 
 use self::chord::Chord;
@@ -61,13 +63,20 @@ pub struct Traced {
 }
 
 /// Why a scene was refused.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "needed a kernel that is a polynomial along a ray, found {found}: Bézier clipping has no control points for it"
-)]
-pub struct NoPolynomial {
-    /// The scene's kernel.
-    pub found: Kernel,
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// The kernel is no polynomial along a ray.
+    #[error(
+        "needed a kernel that is a polynomial along a ray, found {found}: Bézier clipping has no control points for it"
+    )]
+    NoPolynomial {
+        /// The scene's kernel.
+        found: Kernel,
+    },
+    /// A ball takes away from the field: what balls add on an interval is then no upper bound of what they
+    /// have added on a part of it.
+    #[error(transparent)]
+    NegativeBall(#[from] NegativeBall),
 }
 
 /// Rays whose two phases are timed together: reading a clock takes time, too.
@@ -78,11 +87,12 @@ impl<'a> Baseline<'a> {
     /// a root: the paper prints 10e−4 (section 5.4).
     ///
     /// # Errors
-    /// When the kernel is no polynomial along a ray.
-    pub fn build(scene: &'a Scene, threshold: f64) -> Result<Self, NoPolynomial> {
+    /// When the kernel is no polynomial along a ray, or a ball takes away from the field.
+    pub fn build(scene: &'a Scene, threshold: f64) -> Result<Self, Refusal> {
         if scene.kernel().coefficients().is_none() {
-            return Err(NoPolynomial { found: scene.kernel() });
+            return Err(Refusal::NoPolynomial { found: scene.kernel() });
         }
+        scene.negative_ball().map_or(Ok(()), Err)?;
         Ok(Self { scene, tree: Tree::build(scene), threshold })
     }
 

@@ -78,6 +78,7 @@ impl IsoRenderer for Renderer {
     fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError> {
         self.balls = None;
         self.options.check(gpu, self.name)?;
+        RenderError::check_positive(self.name, scene)?;
         if scene.len() > MOST_BALLS {
             let found = scene.len();
             let reason = format!("needed at most {MOST_BALLS} balls, found {found}");

@@ -101,6 +101,7 @@ impl IsoRenderer for Renderer {
 
     fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError> {
         self.scene = None;
+        RenderError::check_positive(self.name, scene)?;
         let start = Instant::now();
         let specialization = Specialization::of(scene, self.counting);
         let pipelines = match self.pipelines.take() {

@@ -313,7 +313,7 @@ impl Kernel {
     }
 
     /// The core radius of a ball, scene units: inside this sphere its own contribution reaches
-    /// `threshold`, whatever the others add. `None` when it never does.
+    /// `threshold`, if no other takes away from it. `None` when it never does.
     pub fn core_radius(self, ball: &Metaball, threshold: f32) -> Option<f64> {
         let ratio = self.ratio_at(f64::from(threshold) / f64::from(ball.strength))?;
         Some(ratio * f64::from(ball.radius))

@@ -77,7 +77,7 @@ pub use kernel::{Cut, CutError, Exponent, ExponentError, Kernel, KernelNameError
 pub use picture::{Image, Picture, Shaded, ValueRange};
 pub use ray::{Hit, NO_LIMIT, PackedHit, Ray, Verdict};
 pub use scene::{
-    Generality, KernelForm, RADIUS_LIMITS, Scene, SceneError, check_ball, check_field,
+    Generality, KernelForm, NegativeBall, RADIUS_LIMITS, Scene, SceneError, check_ball, check_field,
 };
 pub use surface_color::SurfaceColors;
 pub use work::{Work, WorkKind};

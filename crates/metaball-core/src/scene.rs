@@ -78,8 +78,8 @@ pub enum SceneError {
         /// Its radius.
         found: f32,
     },
-    /// The strength is not a positive finite number.
-    #[error("ball {index}: needed a finite strength above 0, found {found}")]
+    /// The strength is 0 or not a finite number.
+    #[error("ball {index}: needed a finite strength other than 0, found {found}")]
     Strength {
         /// Index of the ball.
         index: usize,
@@ -106,6 +106,16 @@ pub enum SceneError {
         /// Number of balls.
         found: usize,
     },
+}
+
+/// A ball that takes away from the field, where all have to add to it.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("needed strengths above 0, found {found} of ball {index}")]
+pub struct NegativeBall {
+    /// Index of the ball.
+    pub index: usize,
+    /// Its strength.
+    pub found: f32,
 }
 
 impl Scene {
@@ -226,6 +236,13 @@ impl Scene {
         self.strengths.as_deref()
     }
 
+    /// The first ball that takes away from the field, for what takes none.
+    pub fn negative_ball(&self) -> Option<NegativeBall> {
+        let mut strengths = self.strengths()?.iter().enumerate();
+        let (index, &found) = strengths.find(|&(_, &strength)| strength < 0.0)?;
+        Some(NegativeBall { index, found })
+    }
+
     /// Colours of the balls, if the scene has any.
     pub fn colors(&self) -> Option<&[Color]> {
         self.colors.as_deref()
@@ -264,10 +281,11 @@ impl Scene {
         self.origin
     }
 
-    /// The smallest box around all support spheres; empty for an empty scene.
+    /// The smallest box around the support spheres of all balls that add to the field: the solid is in it.
+    /// Empty where there are none.
     pub fn bounds(&self) -> Aabb {
-        self.supports.iter().fold(Aabb::EMPTY, |bounds, support| {
-            bounds.union(&Aabb::around_sphere(support.center, support.radius))
+        self.balls().filter(|ball| !ball.is_negative()).fold(Aabb::EMPTY, |bounds, ball| {
+            bounds.union(&Aabb::around_sphere(ball.center, ball.radius))
         })
     }
 }
@@ -307,7 +325,7 @@ pub fn check_ball(index: usize, ball: &Metaball) -> Result<(), SceneError> {
     if !(RADIUS_LIMITS.0..=RADIUS_LIMITS.1).contains(&ball.radius) {
         return Err(SceneError::Radius { index, found: ball.radius });
     }
-    if !(ball.strength.is_finite() && ball.strength > 0.0) {
+    if !ball.strength.is_finite() || ball.strength == 0.0 {
         return Err(SceneError::Strength { index, found: ball.strength });
     }
     Ok(())
@@ -344,6 +362,7 @@ mod tests {
             let broken = Metaball { center, ..good };
             assert!(message(&[broken], 0.5).starts_with("ball 0: needed a finite centre"));
         }
+        assert!(message(&[ball(1.0, f32::NAN)], 0.5).ends_with("other than 0, found NaN"));
         for threshold in [0.0, -1.0, f32::NAN, f32::INFINITY] {
             assert!(message(&[good], threshold).starts_with("threshold: needed"));
         }
@@ -363,6 +382,21 @@ mod tests {
         assert_eq!(scene(1.0).strengths(), None);
         assert_eq!(scene(2.0).strengths(), Some(&[2.0][..]));
         assert_eq!(scene(2.0).ball(0).strength, 2.0);
+    }
+
+    #[test]
+    fn the_solid_is_where_balls_add() {
+        let scene = |strengths: [f32; 2]| {
+            let balls = [0.0, 9.0].map(|x| x * Vec3::X).into_iter().zip(strengths);
+            let balls = balls.map(|(center, strength)| Metaball { center, ..ball(1.0, strength) });
+            Scene::new(balls, Kernel::QUARTIC, 0.5).expect("legal")
+        };
+        assert_eq!(scene([1.0, 2.0]).negative_ball(), None);
+        assert_eq!(scene([1.0, 2.0]).bounds().max.x, 10.0);
+        let negative = scene([1.0, -2.0]).negative_ball().expect("one of two");
+        assert_eq!(negative.to_string(), "needed strengths above 0, found -2 of ball 1");
+        assert_eq!(scene([1.0, -2.0]).bounds().max.x, 1.0);
+        assert!(scene([-1.0, -2.0]).bounds().is_empty());
     }
 
     #[test]

@@ -30,8 +30,8 @@ impl<'a> SurfaceColors<'a> {
         Self { scene, along_x, reach }
     }
 
-    /// The colour at a point of the surface in linear light: each ball's counts by its share of the
-    /// field. `near` names balls among which are all that add to the field there; where it is empty they
+    /// The colour at a point of the surface in linear light: each ball's counts by its share of what is added
+    /// to the field, and those of balls that take away from it do not. `near` names balls among which are all that add to the field there; where it is empty they
     /// are looked for.
     pub fn at(&self, point: Vec3, near: &[u32]) -> Vec3 {
         let Some(colors) = self.scene.colors() else { return Self::UNCOLORED };
@@ -43,8 +43,8 @@ impl<'a> SurfaceColors<'a> {
             let support = self.scene.supports()[ball];
             let depth =
                 1.0 - point.distance_squared(support.center) / (support.radius * support.radius);
-            if depth > 0.0 {
-                let strength = self.scene.strengths().map_or(1.0, |strengths| strengths[ball]);
+            let strength = self.scene.strengths().map_or(1.0, |strengths| strengths[ball]);
+            if depth > 0.0 && strength > 0.0 {
                 let weight = strength * self.scene.kernel().value_at_depth(depth);
                 blended += weight * colors[ball].to_linear();
                 total += weight;
@@ -80,5 +80,15 @@ mod tests {
         assert_eq!(colors.at(Vec3::ZERO, &[0, 1, 2]), middle);
         assert_eq!(colors.at(9.0 * Vec3::X, &[]), Vec3::Z);
         assert_eq!(SurfaceColors::new(&plain).at(Vec3::ZERO, &[]), SurfaceColors::UNCOLORED);
+    }
+
+    #[test]
+    fn what_takes_away_has_no_color() {
+        let balls = [(-0.5, 1.0), (0.5, -0.5)]
+            .map(|(x, strength)| Metaball { strength, ..Metaball::new(x * Vec3::X, 1.0) });
+        let scene = Scene::new(balls, Kernel::QUARTIC, 0.25).expect("legal");
+        let [red, green] = [[255, 0, 0], [0, 255, 0]].map(|[r, g, b]| Color::srgb(r, g, b));
+        let scene = scene.with_colors(vec![red, green]).expect("a colour a ball");
+        assert_eq!(SurfaceColors::new(&scene).at(Vec3::ZERO, &[]), Vec3::X);
     }
 }

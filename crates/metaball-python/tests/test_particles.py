@@ -102,7 +102,7 @@ def test_arrays_that_do_not_fit_are_named(
     ("arguments", "words"),
     [
         ({"support_radius": -1.0}, "ball 0: needed a support radius"),
-        ({"strength": np.where(np.arange(50) == 7, -1.0, 1.0)}, "ball 7: needed a finite strength"),
+        ({"strength": np.where(np.arange(50) == 7, 0.0, 1.0)}, "ball 7: needed a finite strength"),
         ({"centers": np.where(np.arange(50)[:, None] == 9, np.nan, CENTERS)}, "ball 9: needed a finite"),
         ({"radius": 1.0, "strength": 0.2}, "needed a strength above the threshold 0.25"),
     ],
@@ -113,6 +113,15 @@ def test_particles_that_make_no_surface_are_named(
     particles = Particles(**{"centers": CENTERS, **arguments})
     with pytest.raises(ValueError, match=words):
         Surface(particles)
+
+
+def test_negative_balls_take_away() -> None:
+    centers = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    rays = ([0.0, 0.0, 5.0], [0.0, 0.0, -1.0])
+    whole = Surface(Particles(centers[:1], support_radius=2.0))
+    carved = Surface(Particles(centers, support_radius=[2.0, 1.0], strength=[1.0, -1.0]))
+    assert carved.trace(*rays).t > whole.trace(*rays).t + 0.1
+    assert carved.field([0.0, 0.0, 1.0]) == pytest.approx(0.75**2 - 1.0)
 
 
 def test_kernels_are_the_librarys() -> None:

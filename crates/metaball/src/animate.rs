@@ -102,17 +102,18 @@ pub fn animate(
     let files = Files::of(options, &numbers.present);
     files.check(options)?;
     let (width, height) = draw.size;
-    // The same for all frames, whichever of them are drawn: where and how large the scene is, its first
-    // one says.
+    // The same for all frames, whichever of them are drawn: where and how large the scene is, and what can
+    // draw it, its first one says.
     let (mut camera, mut lighting) = (*scene.camera(), None);
+    let first = scene.frame(scene.frames().start);
+    let opened = draw.open(first.as_ref().ok())?;
     if draw.viewpoint.is_asked() || draw.light.is_asked() {
-        let first = scene.frame(scene.frames().start).map_err(Error::Frames)?;
+        let first = first.map_err(Error::Frames)?;
         camera = draw.viewpoint.camera(&camera, &first)?;
         let is_lit = draw.light.is_asked();
         lighting = is_lit.then(|| draw.light.lighting(&camera, &first)).transpose()?;
     }
     let view = View::new(camera, width, height)?;
-    let opened = draw.open()?;
     let job = Job {
         options: draw,
         scene,

@@ -1,15 +1,17 @@
 //! What the CPU alone draws, with the certified tree.
 
 use fbvh::Kind;
+use metaball_core::Scene;
 
 use crate::backend::Opened;
 use crate::{DrawOptions, Error};
 
 impl DrawOptions {
-    /// The option that only the certified tree on the CPU gives, if there is any.
-    pub(crate) fn cpu_alone(&self) -> Option<&'static str> {
+    /// What only the certified tree on the CPU gives, of these options and of a scene, if there is any.
+    pub(crate) fn cpu_alone(&self, scene: Option<&Scene>) -> Option<&'static str> {
         let clips = (!self.clip.is_all()).then_some("clip");
-        clips.or(self.light.is_see_through().then_some("opacity"))
+        let negative = scene.and_then(Scene::negative_ball).map(|_| "negative strengths");
+        clips.or(self.light.is_see_through().then_some("opacity")).or(negative)
     }
 
     /// Opens the CPU for such an option, if nothing else was asked for.
@@ -34,7 +36,9 @@ mod tests {
     use glam::Vec3;
     use metaball_core::gpu::AdapterChoice;
     use metaball_core::reference::Oracle;
-    use metaball_core::{Aabb, Clip, Color, Hit, Image, Picture, Ray, Scene, Verdict, View};
+    use metaball_core::{
+        Aabb, Clip, Color, Hit, Image, Metaball, Picture, Ray, Scene, Verdict, View,
+    };
 
     use super::*;
     use crate::{Backend, Drawing, LightOptions, Method, draw};
@@ -146,7 +150,7 @@ mod tests {
         let backend = Backend::Adapter(AdapterChoice::Software);
         let error = refusal(DrawOptions { light: light.clone(), backend, ..whole.clone() });
         assert!(error.starts_with("opacity: needed the CPU"), "{error}");
-        let opened = DrawOptions { light, ..whole }.open();
+        let opened = DrawOptions { light, ..whole.clone() }.open(None);
         match Backend::Fastest.adapter_asked() {
             Some(_) => assert!(opened.is_err()),
             None => {
@@ -154,6 +158,14 @@ mod tests {
                 assert!(by.starts_with("the CPU") && by.ends_with("it alone has opacity"), "{by}");
             }
         }
+        let carved = bench.scene.balls().enumerate().map(|(index, ball)| Metaball {
+            strength: if index == 0 { -ball.strength } else { ball.strength },
+            ..ball
+        });
+        let carved = Scene::new(carved, bench.scene.kernel(), 0.3).expect("legal");
+        assert_eq!(base.cpu_alone(Some(&bench.scene)), Some("clip"));
+        assert_eq!(whole.cpu_alone(Some(&bench.scene)), None);
+        assert_eq!(whole.cpu_alone(Some(&carved)), Some("negative strengths"));
         let nothing = Aabb { min: Vec3::splat(50.0), max: Vec3::splat(51.0) };
         let clip = Clip::default().and_box(&nothing).expect("a box");
         let options = DrawOptions { clip, backend: Backend::Cpu, ..base };

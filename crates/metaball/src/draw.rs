@@ -116,7 +116,7 @@ pub(crate) fn no_light() -> Error {
 /// When an option cannot be used, or method or adapter cannot draw the scene.
 pub fn draw(scene: &Scene, camera: &Camera, options: &DrawOptions) -> Result<Drawing, Error> {
     let view = options.view(scene, camera)?;
-    let opened = options.open()?;
+    let opened = options.open(Some(scene))?;
     match on_adapter(&opened, options, scene, &view, |_| ControlFlow::Continue(()))? {
         Attempt::Drawn(drawing) => Ok(*drawing),
         Attempt::Left { computed_by } => {
@@ -233,9 +233,9 @@ impl DrawOptions {
         self.clip.clone().relative_to(scene.origin())
     }
 
-    /// Opens what draws it.
-    pub(crate) fn open(&self) -> Result<Opened, Error> {
-        if let Some(option) = self.cpu_alone() {
+    /// Opens what draws it; the scene is the picture's, or one like it, where it is known.
+    pub(crate) fn open(&self, scene: Option<&Scene>) -> Result<Opened, Error> {
+        if let Some(option) = self.cpu_alone(scene) {
             return self.open_cpu(option);
         }
         if self.method.is_on_host() {

@@ -12,6 +12,8 @@ use metaball_core::{Aabb, Metaball, Scene};
 pub enum Emptiness {
     /// There is no ball.
     NoBalls,
+    /// There are negative balls alone, which add nothing to the field.
+    NothingAdds,
     /// The field stays below the threshold everywhere.
     BelowThreshold {
         /// The field is nowhere more than this.
@@ -32,6 +34,7 @@ impl fmt::Display for Emptiness {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoBalls => formatter.write_str("there are no balls"),
+            Self::NothingAdds => formatter.write_str("all strengths are negative"),
             Self::BelowThreshold { most, threshold } => write!(
                 formatter,
                 "the field is nowhere more than {most:.4}, and the threshold {threshold} is above it: lower \
@@ -68,6 +71,9 @@ impl Emptiness {
         if balls.is_empty() {
             return Self::NoBalls;
         }
+        if scene.bounds().is_empty() {
+            return Self::NothingAdds;
+        }
         let mut boxes = BinaryHeap::from([Bounded::new(scene, scene.bounds(), &balls)]);
         let mut greatest = 0.0_f64;
         for _ in 0..BOXES {
@@ -98,18 +104,30 @@ impl Emptiness {
 impl Bounded {
     fn new(scene: &Scene, corners: Aabb, balls: &[u32]) -> Self {
         let balls: Vec<u32> =
-            balls.iter().copied().filter(|ball| most(scene, *ball, &corners) > 0.0).collect();
-        // A little more, for roundings: no sum of so many terms is off by a millionth.
-        let sum: f64 = balls.iter().map(|ball| most(scene, *ball, &corners)).sum();
-        Self { corners, balls, most: 1.000_001 * sum }
+            balls.iter().copied().filter(|ball| near(scene, *ball, &corners) != 0.0).collect();
+        let most = balls.iter().map(|ball| most(scene, *ball, &corners)).sum();
+        Self { corners, balls, most }
     }
 }
 
 /// What a ball adds to the field at the point of a box that is nearest to it.
-fn most(scene: &Scene, ball: u32, corners: &Aabb) -> f64 {
+fn near(scene: &Scene, ball: u32, corners: &Aabb) -> f64 {
     let ball = scene.ball(ball as usize);
     let nearest = ball.center.clamp(corners.min, corners.max);
     share(scene, &ball, nearest.as_dvec3())
+}
+
+/// The most that a ball adds in a box: for one that takes away, at the box's farthest point. A little more,
+/// for roundings: no sum of so many terms is off by a millionth.
+fn most(scene: &Scene, index: u32, corners: &Aabb) -> f64 {
+    let ball = scene.ball(index as usize);
+    if !ball.is_negative() {
+        return 1.000_001 * near(scene, index, corners);
+    }
+    let (center, low, high) =
+        (ball.center.as_dvec3(), corners.min.as_dvec3(), corners.max.as_dvec3());
+    let farthest = center + (center - low).max(high - center);
+    0.999_999 * share(scene, &ball, farthest)
 }
 
 fn share(scene: &Scene, ball: &Metaball, point: DVec3) -> f64 {
@@ -169,11 +187,14 @@ mod tests {
     #[test]
     fn what_is_too_weak_says_how_strong_it_is() {
         assert_eq!(of(&[], 0.25), Emptiness::NoBalls);
+        assert_eq!(of(&[(0.0, -1.0)], 0.25), Emptiness::NothingAdds);
         for (balls, greatest) in [
             (&[(0.0, 0.2)][..], 0.2),
             // Two that meet: between them the field is 2·0.2·(1 − 0.25²)².
             (&[(-0.25, 0.2), (0.25, 0.2)], 0.3516),
             (&[(0.0, 0.1), (500.0, 0.2)], 0.2),
+            // Half of a ball is taken away.
+            (&[(0.0, 0.8), (0.0, -0.4)], 0.4),
         ] {
             let Emptiness::BelowThreshold { most, .. } = of(balls, 0.5) else {
                 panic!("{:?}", of(balls, 0.5));
@@ -189,5 +210,6 @@ mod tests {
         };
         assert!((solid.x - 500.0).abs() < 1.0);
         assert!(matches!(of(&[(-0.25, 0.3), (0.25, 0.3)], 0.5), Emptiness::OutOfSight { .. }));
+        assert!(matches!(of(&[(0.0, 0.9), (0.6, -3.0)], 0.5), Emptiness::OutOfSight { .. }));
     }
 }

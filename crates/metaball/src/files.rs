@@ -129,7 +129,7 @@ fn draw_files(
     let computed_by = if outputs.resume && Spool::is_beside(&outputs.image)? {
         "the CPU, which began the picture".to_owned()
     } else {
-        match on_adapter(&options.open()?, options, scene, view, &mut progress)? {
+        match on_adapter(&options.open(Some(scene))?, options, scene, view, &mut progress)? {
             Attempt::Drawn(drawing) => return save(*drawing, outputs, view),
             Attempt::Left { computed_by } => computed_by,
         }

@@ -53,7 +53,7 @@ impl Radii<'_> {
         Self::All(median_spacing(positions).map_or(1.0, |spacing| (2.0 * spacing) as f32))
     }
 
-    /// The radii with which particles alone show at these.
+    /// The radii with which particles alone show at these; those of negative balls are as if they were not.
     ///
     /// # Errors
     /// Where a strength is too small for a particle to show alone.
@@ -98,7 +98,7 @@ pub struct Balls<'a, P> {
     pub positions: &'a P,
     /// Their support radii.
     pub radii: Radii<'a>,
-    /// The strength of each; 1 for all where this is `None`.
+    /// The strength of each, not 0; 1 for all where this is `None`.
     pub strengths: Option<&'a [f32]>,
 }
 
@@ -186,20 +186,20 @@ pub(crate) fn supports_of_shown(
     Ok(Radii::Each(radii.into()))
 }
 
-/// The support radius over the radius at which a ball alone shows.
+/// The support radius over the radius at which a ball alone shows, or would if it added what it takes away.
 fn support_over_shown(kernel: Kernel, threshold: f32, strength: f32) -> Result<f32, Flaw> {
-    let unit = Metaball { strength, ..Metaball::new(glam::Vec3::ZERO, 1.0) };
+    let unit = Metaball { strength: strength.abs(), ..Metaball::new(glam::Vec3::ZERO, 1.0) };
     match kernel.core_radius(&unit, threshold) {
         Some(shown) if shown > 0.0 => Ok((1.0 / shown) as f32),
         _ if !(threshold.is_finite() && threshold > 0.0) => {
             Err(Flaw::new(SceneError::Threshold { found: threshold }.to_string()))
         }
-        _ if !(strength.is_finite() && strength > 0.0) => {
-            Err(Flaw::needed("a finite strength above 0", strength))
+        _ if !strength.is_finite() || strength == 0.0 => {
+            Err(Flaw::needed("a finite strength other than 0", strength))
         }
         _ => Err(Flaw::needed(
             &format!(
-                "a strength above the threshold {threshold}, so that it shows alone at its radius"
+                "a strength above the threshold {threshold} in size, so that it shows alone at its radius"
             ),
             strength,
         )
@@ -268,7 +268,7 @@ mod tests {
         assert_eq!(of(&Radii::All(0.5), Some(&strengths)), of(&each, Some(&strengths)));
         let weak = Radii::of_shown(&each, Some(&[1.0, 0.1, 1.0]), Kernel::Wyvill, 0.4);
         let weak = weak.expect_err("too weak").to_string();
-        assert!(weak.starts_with("needed a strength above the threshold 0.4"), "{weak}");
+        assert!(weak.starts_with("needed a strength above the threshold 0.4 in size"), "{weak}");
         // Half of them are 1 from the next, the last is √1.25.
         assert!(matches!(Radii::by_spacing(&flat), Radii::All(2.0)));
     }

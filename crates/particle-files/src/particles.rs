@@ -25,7 +25,7 @@ pub struct Particles {
     pub positions: Vec<DVec3>,
     /// How large they are.
     pub sizes: Sizes,
-    /// The strength q of each; 1 for all where this is `None`.
+    /// The strength q of each, not 0: a negative ball takes away from the field. 1 for all where this is `None`.
     pub strengths: Option<Vec<f32>>,
     /// One for each, or `None`.
     pub colors: Option<Vec<Color>>,
@@ -50,7 +50,8 @@ pub struct Particles {
 pub enum Sizes {
     /// The support radius R of each.
     Support(Vec<f32>),
-    /// For each the radius at which it shows where it is alone: R follows from kernel, strength and T.
+    /// For each the radius at which it shows where it is alone: R follows from kernel, strength and T. That of a
+    /// negative ball is the one at which what it takes away reaches T.
     Shown(Vec<f32>),
     /// The smoothing length h of each: R follows from the kernel, as its source has it.
     Smoothing(Vec<f32>),
@@ -152,6 +153,8 @@ impl Particles {
 
 #[cfg(test)]
 mod tests {
+    use metaball_core::Metaball;
+
     use super::*;
 
     fn one(sizes: Sizes, strength: Option<f32>) -> Particles {
@@ -166,10 +169,13 @@ mod tests {
     #[test]
     fn a_particle_alone_shows_at_its_radius() {
         for kernel in Kernel::all() {
-            for strength in [None, Some(0.75), Some(3.0)] {
+            for strength in [None, Some(0.75), Some(3.0), Some(-3.0)] {
                 let scene = one(Sizes::Shown(vec![1.5]), strength).into_scene(kernel, 0.25);
-                let scene = scene.expect("legal");
-                let shown = kernel.core_radius(&scene.ball(0), 0.25).expect("it shows");
+                let ball = scene.expect("legal").ball(0);
+                assert_eq!(ball.strength, strength.unwrap_or(1.0));
+                // A negative ball is as large as what it takes away.
+                let added = Metaball { strength: ball.strength.abs(), ..ball };
+                let shown = kernel.core_radius(&added, 0.25).expect("it shows");
                 // Factor and radius are rounded to f32: twice 6e-8 relative.
                 assert!((shown - 1.5).abs() < 2e-7, "{kernel}: {shown}");
             }
@@ -184,8 +190,12 @@ mod tests {
             scene.expect_err("refused").to_string()
         };
         assert!(refused(0.25).contains("support_radius"));
-        assert!(refused(0.1).starts_with("needed a strength above the threshold 0.25"));
-        assert!(refused(-1.0).contains("a finite strength above 0"));
+        for weak in [0.1, -0.1] {
+            assert!(
+                refused(weak).starts_with("needed a strength above the threshold 0.25 in size")
+            );
+        }
+        assert!(refused(0.0).contains("a finite strength other than 0"));
         let weak = one(Sizes::Support(vec![1.0]), Some(0.1));
         assert!(weak.into_scene(Kernel::QUARTIC, 0.25).is_ok());
     }

@@ -17,7 +17,7 @@ pub struct Pick {
     pub on_face: bool,
     /// Σ qᵢ·k there, in f64.
     pub field: f64,
-    /// What each ball adds to it, the most first.
+    /// What each ball adds to it, the most first; negative balls come last.
     pub shares: Vec<Share>,
 }
 
@@ -26,7 +26,7 @@ pub struct Pick {
 pub struct Share {
     /// Index of the ball in the scene, from 0.
     pub ball: usize,
-    /// What it adds.
+    /// What it adds; less than 0 where it takes away.
     pub value: f64,
     /// That in parts of the whole field.
     pub share: f64,
@@ -76,7 +76,7 @@ impl Pick {
     }
 }
 
-/// All balls that add to the field at a point, in the scene's coordinates.
+/// All balls that add to the field at a point or take away from it, in the scene's coordinates.
 fn shares(model: &Model, point: DVec3) -> Vec<Share> {
     let scene = model.scene();
     let mut shares: Vec<_> = (scene.balls().enumerate())
@@ -84,7 +84,7 @@ fn shares(model: &Model, point: DVec3) -> Vec<Share> {
             let squared = point.distance_squared(metaball.center.as_dvec3());
             let ratio = squared / f64::from(metaball.radius).powi(2);
             let value = f64::from(metaball.strength) * scene.kernel().value(ratio);
-            (value > 0.0).then_some(Share { ball, value, share: 0.0 })
+            (value != 0.0).then_some(Share { ball, value, share: 0.0 })
         })
         .collect();
     let field: f64 = shares.iter().map(|share| share.value).sum();
@@ -103,9 +103,9 @@ mod tests {
 
     const ORIGIN: DVec3 = DVec3::new(1000.0, 0.0, 0.0);
 
-    /// Two balls that overlap, one far off, and one twice as strong.
+    /// Two balls that overlap, one far off, one twice as strong, and a negative one.
     fn model() -> Model {
-        let balls = [(-0.4, 1.0), (0.4, 1.0), (9.0, 1.0), (0.0, 2.0)]
+        let balls = [(-0.4, 1.0), (0.4, 1.0), (9.0, 1.0), (0.0, 2.0), (0.9, -0.1)]
             .map(|(x, strength)| Metaball { strength, ..Metaball::new(x * Vec3::X, 1.0) });
         let scene = Scene::new(balls, Kernel::QUARTIC, 0.25).expect("legal").with_origin(ORIGIN);
         Model::new(scene, &Method::default()).expect("built")
@@ -125,7 +125,8 @@ mod tests {
         assert!((f64::from(pick.hit.t) - truth.t).abs() < 1e-5);
         assert!((pick.field - 0.25).abs() < 1e-5, "{}", pick.field);
         let balls: Vec<_> = pick.shares.iter().map(|share| share.ball).collect();
-        assert_eq!(balls, [3, 1, 0], "by what they add; the far one adds nothing");
+        assert_eq!(balls, [3, 1, 0, 4], "by what they add; the far one adds nothing");
+        assert!(pick.shares[3].value < 0.0);
         let whole: f64 = pick.shares.iter().map(|share| share.share).sum();
         assert!((whole - 1.0).abs() < 1e-12);
         let in_scene = pick.point - ORIGIN;

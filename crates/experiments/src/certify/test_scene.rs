@@ -1,7 +1,7 @@
 //! A scene with its rays, held against the oracle.
 
 use anyhow::Context;
-use bench_scenes::{Case, Random, arbitrary, cases};
+use bench_scenes::{Case, Random, arbitrary, carved, cases};
 use fbvh::{Options, Tree};
 use glam::Vec3;
 use metaball_core::RayQuery;
@@ -22,22 +22,33 @@ pub enum TestScene {
     Case(&'static Case, f64),
     /// A scene of any kind, by seed.
     Arbitrary(u64),
+    /// The same with a third of its balls negative.
+    Carved(u64),
 }
 
 /// Which scenes are tried: the stability cases first, at all values at which nothing but right is
-/// expected of the certified tree, then without end scenes of any kind.
+/// expected of the certified tree on the CPU, then without end scenes of any kind, every fourth with negative balls.
 pub fn test_scenes(seed: u64, quick: bool) -> impl Iterator<Item = TestScene> {
     let of_case = move |case: &'static Case| {
         let values = if quick { case.quick } else { case.values };
-        let holds = move |value: &f64| expected(CERTIFIED, case, *value) == Outcome::Right;
+        let holds = move |value: &f64| expected(ON_CPU, case, *value) == Outcome::Right;
         values.iter().copied().filter(holds).map(move |value| TestScene::Case(case, value))
     };
     // Neighbouring seeds have nothing in common, but ranges of them would overlap.
     let first = seed << 32;
-    cases().iter().flat_map(of_case).chain((first..).map(TestScene::Arbitrary))
+    let by_seed = |seed: u64| match seed % CARVED_STEP {
+        0 => TestScene::Carved(seed),
+        _ => TestScene::Arbitrary(seed),
+    };
+    cases().iter().flat_map(of_case).chain((first + 1..).map(by_seed))
 }
 
-const CERTIFIED: &str = "fbvh-certified";
+/// Every so-many-th scene by seed has negative balls.
+const CARVED_STEP: u64 = 4;
+
+/// The certified tree, as limits name it.
+const ON_CPU: &str = "fbvh-certified-cpu";
+const ON_ADAPTER: &str = "fbvh-certified";
 
 /// The adapter traces every so-many-th ray too; of these, and on the CPU, every so-many-th queries any hit.
 const ADAPTER_STEP: usize = 5;
@@ -55,6 +66,7 @@ impl TestScene {
         match self {
             Self::Case(case, value) => format!("{}={value}", case.name),
             Self::Arbitrary(seed) => format!("arbitrary({seed})"),
+            Self::Carved(seed) => format!("carved({seed})"),
         }
     }
 
@@ -65,7 +77,17 @@ impl TestScene {
         const CASE_WORK: usize = 3_000_000;
         match self {
             Self::Case(..) => (wanted / 4).min(CASE_WORK / scene.len().max(1)),
-            Self::Arbitrary(_) => wanted,
+            Self::Arbitrary(_) | Self::Carved(_) => wanted,
+        }
+    }
+
+    /// Whether the shaders are held to it.
+    fn is_for_adapter(&self) -> bool {
+        match self {
+            Self::Case(case, value) => expected(ON_ADAPTER, case, *value) == Outcome::Right,
+            Self::Arbitrary(_) => true,
+            // Negative balls are the CPU's alone.
+            Self::Carved(_) => false,
         }
     }
 
@@ -79,8 +101,11 @@ impl TestScene {
                 let (bench, view) = case.view(*value)?;
                 Ok((bench.scene, *view.camera()))
             }
-            Self::Arbitrary(seed) => {
-                let scene = arbitrary(*seed)?;
+            Self::Arbitrary(seed) | Self::Carved(seed) => {
+                let scene = match self {
+                    Self::Carved(_) => carved(*seed)?,
+                    _ => arbitrary(*seed)?,
+                };
                 let camera = distribution::camera(&scene, &mut Random::new(!seed));
                 let framing = || Camera::framing(&scene.bounds(), Vec3::ONE);
                 let camera = camera.unwrap_or_else(framing);
@@ -89,8 +114,8 @@ impl TestScene {
         }
     }
 
-    /// Sends about so many rays through the certified tree on the CPU, a third of them on the adapter too,
-    /// and counts the answers.
+    /// Sends about so many rays through the certified tree on the CPU, a third of them on the adapter too if
+    /// it is to be right there, and counts the answers.
     ///
     /// # Errors
     /// When the tree cannot be built, or the device fails.
@@ -105,6 +130,7 @@ impl TestScene {
         let tree = Tree::build(&scene, &Options::certified()).with_context(|| name.clone())?;
         let tracer = fbvh::Tracer::new(&tree, &scene);
         let mut on_adapter = adapter
+            .filter(|_| self.is_for_adapter())
             .map(|adapter| adapter.build(&scene))
             .transpose()
             .with_context(|| name.clone())?;
@@ -306,10 +332,12 @@ impl Rays {
 mod tests {
     use std::collections::BTreeSet;
 
-    use super::*;
     use harness::fronts::WRONG_FRONT;
+    use metaball_core::Metaball;
 
-    /// A scene of seed 3 with its rays and the answers of its own tree.
+    use super::*;
+
+    /// A scene with its rays and the answers of its own tree.
     struct Sample {
         scene: Scene,
         rays: Rays,
@@ -327,7 +355,11 @@ mod tests {
     }
 
     fn sample() -> Sample {
-        let (scene, camera) = TestScene::Arbitrary(3).scene().expect("legal");
+        sample_of(TestScene::Arbitrary(3))
+    }
+
+    fn sample_of(test_scene: TestScene) -> Sample {
+        let (scene, camera) = test_scene.scene().expect("legal");
         let tree = Tree::build(&scene, &Options::certified()).expect("a tree");
         let picture = Picture::new(camera, 500, None).expect("a view");
         let oracle = Oracle::new(&scene);
@@ -346,6 +378,25 @@ mod tests {
         let wrong: u64 = tally.counts.values().map(|count| count.wrong).sum();
         assert_eq!(tally.wrong.len() as u64, wrong.min(200));
         (wrong, tally.errors.values().map(|errors| errors.squares).sum())
+    }
+
+    #[test]
+    fn negative_balls_are_taken_away_and_missed_where_they_are_not() {
+        let sample = sample_of(TestScene::Carved(4));
+        assert!(sample.scene.len() > 20 && sample.scene.negative_ball().is_some());
+        assert_eq!(verdict(&sample, &sample.answers).0, 0);
+
+        let spoilt = |balls: Vec<Metaball>| {
+            let scene = Scene::new(balls, sample.scene.kernel(), sample.scene.threshold());
+            verdict(&sample, &answers(&scene.expect("legal"), &sample.rays)).0
+        };
+        let positive = sample.scene.balls().filter(|ball| !ball.is_negative());
+        assert!(spoilt(positive.collect()) > 0, "nothing is taken away");
+        let weaker = sample.scene.balls().map(|ball| match ball.is_negative() {
+            true => Metaball { strength: 0.9 * ball.strength, ..ball },
+            false => ball,
+        });
+        assert!(spoilt(weaker.collect()) > 0, "a tenth less is taken away");
     }
 
     #[test]
@@ -438,7 +489,9 @@ mod tests {
         let all: Vec<_> = test_scenes(1, false).take(400).map(|scene| scene.name()).collect();
         assert!(all.contains(&"coincident=4096".to_owned()));
         assert!(!all.contains(&"distance=1000000".to_owned()), "beyond the stated limits");
-        assert_eq!(all.last().map(|name| name.starts_with("arbitrary(")), Some(true));
+        let by_seed = &all[all.len() - 8..];
+        let count = |of: &str| by_seed.iter().filter(|name| name.starts_with(of)).count();
+        assert_eq!((count("arbitrary("), count("carved(")), (6, 2));
         let first =
             |seed| test_scenes(seed, true).find(|scene| matches!(scene, TestScene::Arbitrary(_)));
         assert_ne!(first(1).map(|scene| scene.name()), first(2).map(|scene| scene.name()));

@@ -16,6 +16,9 @@ type From = (f64, Outcome);
 /// A method's limit in a case.
 type Limit = (&'static str, &'static [From]);
 
+/// Negative balls are refused.
+const CARVED: &[From] = &[(0.1, Reported)];
+
 /// The limits of `illes`, and of `illes-compute`, which casts the same: those of its cubics, and of a running
 /// sum that loses its digits away from the eye (section 4).
 const RUNNING_CUBICS: &[Limit] = &[
@@ -36,6 +39,7 @@ const RUNNING_CUBICS: &[Limit] = &[
     ("neck", &[(0.1, SilentlyWrong), (-0.1, Right), (1e-3, SilentlyWrong)]),
     ("sheet", &[(0.1, SilentlyWrong)]),
     ("kink", &[(1e-3, SilentlyWrong), (0.0, Right)]),
+    ("carved", CARVED),
     ("effective-radii", &[(0.8, SilentlyWrong), (1.0, Right), (1.25, SilentlyWrong)]),
     ("wide-lens", &[(38.0, SilentlyWrong), (120.0, Right), (150.0, SilentlyWrong), (170.0, Right)]),
     ("narrow-lens", &[(38.0, SilentlyWrong), (1.0, Right)]),
@@ -62,6 +66,7 @@ const CUBICS: &[Limit] = &[
     ("cut", &[(1.0, SilentlyWrong)]),
     ("neck", &[(0.1, SilentlyWrong), (-0.1, Right), (1e-3, SilentlyWrong)]),
     ("sheet", &[(0.1, SilentlyWrong)]),
+    ("carved", CARVED),
     ("effective-radii", &[(0.8, SilentlyWrong), (1.0, Right), (1.5, SilentlyWrong)]),
     ("wide-lens", &[(38.0, SilentlyWrong), (120.0, Right), (150.0, SilentlyWrong), (170.0, Right)]),
     ("narrow-lens", &[(38.0, SilentlyWrong), (1.0, Right)]),
@@ -84,6 +89,7 @@ const PEELING: &[Limit] = &[
     ("distance", &[(1e4, Coarse), (1e6, Broken)]),
     ("cut", &[(1.0, Reported)]),
     ("kink", &[(0.1, Reported)]),
+    ("carved", CARVED),
 ];
 
 /// The limits of each configuration, by case. An outcome holds to the end of the case's values or to the
@@ -98,6 +104,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("distance", &[(1e5, Coarse)]),
             ("threshold-near-zero", &[(1e-12, Reported)]),
             ("grazing", &[(1e-2, Reported), (1e-3, Right), (1e-5, Reported), (1e-6, Right)]),
+            ("carved", CARVED),
         ],
     ),
     // Section 3: a surface into which no centre projects is missed. Broken: distances of 10⁶ radii, radii 10⁶
@@ -113,6 +120,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("threshold-near-maximum", &[(1e-5, Coarse), (1e-6, Right)]),
             ("neck", &[(0.1, SilentlyWrong), (-0.1, Right), (1e-3, SilentlyWrong)]),
             ("sheet", &[(-0.1, SilentlyWrong)]),
+            ("carved", CARVED),
             ("effective-radii", &[(2.5, SilentlyWrong), (3.0, Right)]),
             ("nudged", &[(0.25, SilentlyWrong), (1e-2, Right)]),
         ],
@@ -131,13 +139,18 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ),
             ("neck", &[(0.1, SilentlyWrong), (-0.1, Right), (1e-3, SilentlyWrong)]),
             ("sheet", &[(-0.1, SilentlyWrong)]),
+            ("carved", CARVED),
             ("effective-radii", &[(2.5, SilentlyWrong), (3.0, Right)]),
         ],
     ),
     // An f32 distance from afar; at T = 10⁻¹² the surface is where v is 10⁻⁶, a few roundings of 1.
     (
         "fbvh-certified",
-        &[("distance", &[(1e5, Coarse)]), ("threshold-near-zero", &[(1e-12, Reported)])],
+        &[
+            ("distance", &[(1e5, Coarse)]),
+            ("threshold-near-zero", &[(1e-12, Reported)]),
+            ("carved", CARVED),
+        ],
     ),
     // f64 all the way, but for the t that is handed out.
     ("fbvh-certified-cpu", &[("distance", &[(1e5, Coarse)])]),
@@ -147,6 +160,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("distance", &[(1e5, Coarse)]),
             ("cut", &[(1.0, Reported)]),
             ("kink", &[(0.1, Reported)]),
+            ("carved", CARVED),
         ],
     ),
     ("illes", RUNNING_CUBICS),
@@ -163,6 +177,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("exponent", &[(4.0, Reported)]),
             ("cut", &[(1.0, Reported)]),
             ("kink", &[(0.1, Reported)]),
+            ("carved", CARVED),
         ],
     ),
     // An array for ten balls.
@@ -177,6 +192,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("exponent", &[(4.0, Reported)]),
             ("cut", &[(1.0, Reported)]),
             ("kink", &[(0.1, Reported)]),
+            ("carved", CARVED),
             ("effective-radii", &[(3.0, Reported)]),
             ("redrawn", &[(1000.0, Reported)]),
             ("shuffled", &[(1000.0, Reported)]),
@@ -190,6 +206,7 @@ const LIMITS: &[(&str, &[Limit])] = &[
             ("exponent", &[(4.0, Reported)]),
             ("cut", &[(1.0, Reported)]),
             ("kink", &[(0.1, Reported)]),
+            ("carved", CARVED),
         ],
     ),
     ("illes-compute", RUNNING_CUBICS),

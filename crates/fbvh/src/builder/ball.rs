@@ -36,6 +36,12 @@ impl Ball {
         self.sphere[3]
     }
 
+    /// Whether it takes away from the field.
+    #[inline]
+    pub(super) fn is_negative(&self) -> bool {
+        self.strength < 0.0
+    }
+
     /// Whether the support sphere meets the box. Never false where it does.
     #[inline]
     pub(super) fn reaches(&self, bounds: &Aabb) -> bool {

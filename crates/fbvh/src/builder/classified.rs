@@ -93,12 +93,14 @@ impl Builder {
         if self.is_solid(list, &widened(&part.bounds, part.bounds.extent().max_element())) {
             return Some(Part { list: part.list.start..part.list.start, ..*part });
         }
+        // Where the field is T, so much at least is added.
+        let (_, positive) = self.by_sign(list);
         let strength = match self.strength {
-            Some(strength) => f64::from(strength) * list.len() as f64,
-            None => list.iter().map(|ball| f64::from(ball.strength)).sum(),
+            Some(strength) => f64::from(strength) * positive.len() as f64,
+            None => positive.iter().map(|ball| f64::from(ball.strength)).sum(),
         };
         let reach = Reach::per_ball(self.kernel, self.threshold, strength)?;
-        let bounds = reach.clip(list, &part.bounds);
+        let bounds = reach.clip(positive, &part.bounds);
         if bounds.is_empty() {
             return None;
         }
@@ -159,14 +161,14 @@ impl Builder {
         self.radius.map_or_else(|| radii(list), |radius| (radius, radius))
     }
 
-    /// Mean radius of the balls, each weighted by the most that it adds in the box.
+    /// Mean radius of the balls, each weighted by the most that it adds or takes away in the box.
     fn mean_radius(&self, list: &[Ball], bounds: &Aabb) -> f32 {
         let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
         let (sum, weights) = list.iter().fold((0.0, 0.0), |(sum, weights), ball| {
             let offset = ball.center() - ball.center().clamp(low, high);
             let radius = ball.radius();
             let depth = 1.0 - offset.length_squared() / (radius * radius);
-            let weight = ball.strength * self.kernel.value_at_depth(depth);
+            let weight = ball.strength.abs() * self.kernel.value_at_depth(depth);
             (sum + weight * radius, weights + weight)
         });
         sum / weights.max(f32::MIN_POSITIVE)

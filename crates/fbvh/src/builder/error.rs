@@ -1,9 +1,10 @@
 //! Why a tree cannot be built.
 
-use metaball_core::SceneError;
+use metaball_core::{NegativeBall, SceneError};
 use thiserror::Error;
 
 use super::plane::MAX_BINS;
+use crate::Kind;
 
 /// Why [`Tree::build`](crate::Tree::build) makes no tree.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -17,6 +18,15 @@ pub enum BuildError {
     Bins {
         /// The number given.
         found: u32,
+    },
+    /// A negative ball in a published tree: where it takes away from the solid, a ray can hit without
+    /// passing a centre's projection inside, which the paper's leaf test looks for.
+    #[error("a tree of {kind:?}: {source}")]
+    NegativeOfPublished {
+        /// The tree's kind.
+        kind: Kind,
+        /// The first negative ball.
+        source: NegativeBall,
     },
     /// The balls overlap so much that indices of 32 bits cannot name all list entries or leaves.
     #[error("{what} of the tree: needed at most {limit}, found {found}")]

@@ -1,7 +1,8 @@
 //! Whether the field is above or below T in a whole box.
 //!
 //! Over a box every ball's part of the field is largest at the box's nearest point to the centre and
-//! smallest at its farthest, so sums of the two bound the field.
+//! smallest at its farthest, so sums of the two bound the field. Negative balls have sums of their own: what
+//! they take away at least, or at most, raises the level that the others have to reach.
 //!
 //! Sums are made in f32 first, and decide wherever they are farther from T than all of their rounding.
 //! A lower bound ends as soon as it is certainly above T, an upper one as soon as it is above: a box that
@@ -35,25 +36,31 @@ impl Builder {
     /// Whether the field is certainly at T or below in the whole box.
     pub(super) fn is_empty(&self, list: &[Ball], bounds: &Aabb) -> bool {
         let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+        let (negative, list) = self.by_sign(list);
+        let near_level =
+            self.near_level(negative, |center| (center - near_low).max(near_high - center));
         let mut near_most = 0.0;
         let is_reached = list.iter().any(|ball| {
             let center = ball.center();
             near_most += self.near_part_at(ball, center - center.clamp(near_low, near_high));
-            near_most > self.threshold
+            near_most > near_level
         });
         if is_reached {
             return false;
         }
-        let threshold = f64::from(self.threshold) * (1.0 - ROUNDING);
-        if f64::from(near_most) + self.error(list.len(), near_most) < threshold * (1.0 - ROUNDING) {
+        let certain = f64::from(near_level) - self.error(negative.len(), near_level);
+        let certain = certain * (1.0 - ROUNDING) * (1.0 - ROUNDING);
+        if f64::from(near_most) + self.error(list.len(), near_most) < certain {
             return true;
         }
         let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let level = self.level(negative, |center| (center - low).max(high - center));
+        let level = level * (1.0 - ROUNDING);
         let mut most = 0.0;
         list.iter().all(|ball| {
             let center = ball.center().as_dvec3();
             most += self.part_at(ball, center - center.clamp(low, high));
-            most <= threshold
+            most <= level
         })
     }
 
@@ -63,8 +70,12 @@ impl Builder {
         if self.radius.is_some_and(|radius| bounds.extent().length() > 2.0 * radius) {
             return false;
         }
-        let threshold = f64::from(self.threshold) * (1.0 + ROUNDING);
         let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+        let (negative, list) = self.by_sign(list);
+        let near_level =
+            self.near_level(negative, |center| center - center.clamp(near_low, near_high));
+        let certain = f64::from(near_level) + self.error(negative.len(), near_level);
+        let certain = certain * (1.0 + ROUNDING) * (1.0 + ROUNDING);
         let mut near_least = 0.0;
         let is_certain = list.iter().any(|ball| {
             let center = ball.center();
@@ -73,19 +84,35 @@ impl Builder {
                 return false;
             }
             near_least += self.near_part_at(ball, farthest);
-            near_least > self.threshold
-                && f64::from(near_least) - self.error(list.len(), near_least)
-                    > threshold * (1.0 + ROUNDING)
+            near_least > near_level
+                && f64::from(near_least) - self.error(list.len(), near_least) > certain
         });
-        if is_certain || near_least <= self.threshold {
+        if is_certain || near_least <= near_level {
             return is_certain;
         }
         let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let level = self.level(negative, |center| center - center.clamp(low, high));
+        let level = level * (1.0 + ROUNDING);
         let mut least = 0.0;
         list.iter().any(|ball| {
             let center = ball.center().as_dvec3();
             least += self.part_at(ball, (center - low).max(high - center));
-            least > threshold
+            least > level
+        })
+    }
+
+    /// T, and what negative balls take away at these offsets from their centres: what the others have to add.
+    fn level(&self, negative: &[Ball], offset: impl Fn(DVec3) -> DVec3) -> f64 {
+        negative.iter().fold(f64::from(self.threshold), |level, ball| {
+            level - self.part_at(ball, offset(ball.center().as_dvec3()))
+        })
+    }
+
+    /// [`Builder::level`] in f32.
+    #[inline]
+    fn near_level(&self, negative: &[Ball], offset: impl Fn(Vec3A) -> Vec3A) -> f32 {
+        negative.iter().fold(self.threshold, |level, ball| {
+            level - self.near_part_at(ball, offset(ball.center()))
         })
     }
 
@@ -138,12 +165,14 @@ mod tests {
             3 => 0.5f32..2.0,
             1 => prop::sample::select(vec![1e-2f32, 1.0, 1.5, 1e2]),
         ];
-        let ball = (point(), radius, 0.1f32..3.0);
+        let ball = (point(), radius, prop_oneof![3 => 0.1f32..3.0, 1 => -2.0f32..-0.1]);
         let copies = prop::sample::select(vec![1usize, 1, 1, 40]);
         let side = || prop_oneof![0.0f32..2.0, Just(0.0f32), Just(0.5f32), 1e-4f32..1e-2];
         let sides = [side(), side(), side()].prop_map(Vec3::from);
         (prop::collection::vec(ball, 1..12), copies, point(), sides).prop_map(
             |(balls, copies, min, sides)| {
+                let mut balls = balls;
+                balls.sort_by_key(|&(.., strength)| strength > 0.0);
                 let copied = balls.into_iter().flat_map(|ball| std::iter::repeat_n(ball, copies));
                 let numbered = copied.enumerate().map(|(index, (center, radius, strength))| {
                     Ball::new(center, radius, strength, index as u32)
@@ -162,6 +191,7 @@ mod tests {
             radius: common(balls, Ball::radius),
             strength: common(balls, |ball| ball.strength),
             greatest_strength: greatest_strength(balls),
+            has_negative: balls.iter().any(Ball::is_negative),
             options: Options::certified(),
             grown: GrownPieces::default(),
         }
@@ -178,7 +208,7 @@ mod tests {
             low * (1.0 - part) + high * part
         });
         let nearest = balls.iter().map(|ball| ball.center().as_dvec3().clamp(low, high));
-        lattice.chain(nearest).fold((f64::MAX, 0.0), |(least, most), point| {
+        lattice.chain(nearest).fold((f64::MAX, f64::MIN), |(least, most), point| {
             let field: f64 = balls
                 .iter()
                 .map(|ball| {
@@ -231,29 +261,51 @@ mod tests {
         ) {
             let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
             let any = builder(kernel, 1.0, &balls);
-            let sum = |offset: fn(DVec3, DVec3, DVec3) -> DVec3| {
+            let (negative, positive) = any.by_sign(&balls);
+            let sum = |balls: &[Ball], offset: fn(DVec3, DVec3, DVec3) -> DVec3| {
                 let part =
                     |ball: &Ball| any.part_at(ball, offset(ball.center().as_dvec3(), low, high));
                 balls.iter().map(part).sum::<f64>()
             };
-            let most = sum(|center, low, high| center - center.clamp(low, high));
-            let least = sum(|center, low, high| (center - low).max(high - center));
-            for (bound, is_least) in [(most, false), (least, true)] {
-                for threshold in [-4e-6, -2e-6, 0.0, 2e-6, 4e-6].map(|part| bound * (1.0 + part)) {
+            let near = |center: DVec3, low: DVec3, high: DVec3| center - center.clamp(low, high);
+            let far = |center: DVec3, low: DVec3, high: DVec3| (center - low).max(high - center);
+            let (most, least) = (sum(positive, near), sum(positive, far));
+            let taken = (-sum(negative, far), -sum(negative, near));
+            for (added, taken, is_least) in [(most, taken.0, false), (least, taken.1, true)] {
+                for part in [-4e-6, -2e-6, 0.0, 2e-6, 4e-6] {
+                    let threshold = added * (1.0 + part) - taken;
                     if threshold < f64::from(f32::MIN_POSITIVE) {
                         continue;
                     }
                     let builder = builder(kernel, threshold as f32, &balls);
-                    let threshold = f64::from(builder.threshold);
+                    let level = f64::from(builder.threshold) + taken;
                     if is_least && builder.is_solid(&balls, &bounds) {
-                        prop_assert!(least > threshold * (1.0 + ROUNDING));
+                        prop_assert!(added > level * (1.0 + ROUNDING));
                     }
                     if !is_least && builder.is_empty(&balls, &bounds) {
-                        prop_assert!(most <= threshold * (1.0 - ROUNDING));
+                        prop_assert!(added <= level * (1.0 - ROUNDING));
                     }
                 }
             }
         }
+    }
+
+    /// The quartic is 9/16 at half the radius: of two balls that share a centre a part is left.
+    #[test]
+    fn what_is_taken_away_raises_what_is_needed() {
+        let balls = [Ball::new(Vec3::ZERO, 2.0, -1.0, 1), Ball::new(Vec3::ZERO, 2.0, 3.0, 0)];
+        let builder = |threshold| builder(Kernel::QUARTIC, threshold, &balls);
+        let point = Aabb { min: Vec3::X, max: Vec3::X };
+        assert!(builder(1.1249).is_solid(&balls, &point));
+        assert!(!builder(1.1251).is_solid(&balls, &point));
+        assert!(!builder(1.1249).is_empty(&balls, &point));
+        assert!(builder(1.1251).is_empty(&balls, &point));
+        // Over a box the bounds of both are apart.
+        let bounds = Aabb { min: Vec3::ZERO, max: Vec3::X };
+        assert!(builder(0.6874).is_solid(&balls, &bounds));
+        assert!(!builder(0.6876).is_solid(&balls, &bounds));
+        assert!(!builder(2.4374).is_empty(&balls, &bounds));
+        assert!(builder(2.4376).is_empty(&balls, &bounds));
     }
 
     #[test]

@@ -115,6 +115,7 @@ impl IsoRenderer for Renderer {
 
     fn build(&mut self, gpu: &Gpu, scene: &Scene) -> Result<BuildReport, RenderError> {
         self.built = None;
+        RenderError::check_positive(self.name, scene)?;
         let start = Instant::now();
         let tree = Tree::build(scene, &self.options)
             .map_err(|error| RenderError::Structure { method: self.name, source: error.into() })?;

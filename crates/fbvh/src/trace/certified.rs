@@ -16,6 +16,11 @@
 //! holds one, the first. Otherwise the interval is shortened, from the front to where the upper
 //! polynomial may first reach T, and from the back to where the lower one certainly has.
 //!
+//! Negative balls are enclosed apart from the others: what they take away at most, and at least, is taken off
+//! the polynomials below and above what the others add, coefficient by coefficient, each with the rounding of
+//! its own sum. Where the field rises, they have to fall; so they are followed backwards, along the mirrored
+//! ray, where all that is known of rising parts holds for them.
+//!
 //! Other kernels than power kernels up to α = 4 and Wyvill's are convex in v, with a second derivative that
 //! rises with v: on the range of v that a ball has on the interval such a kernel lies between two parabolas in
 //! v, which are polynomials of degree four along the ray (`trace/certified/kernel/convex.rs`). There the interval

@@ -4,7 +4,7 @@
 //! it comes from; started too far off it would step over thin gaps. How far is enough follows from how
 //! far the hit can be from the surface, u = 2⁻²³:
 //!
-//! - *Uncertainty of the field.* The search knows F at the hit to ± δ, δ = Σ qᵢk′(vᵢ)·δvᵢ plus the
+//! - *Uncertainty of the field.* The search knows F at the hit to ± δ, δ = Σ |qᵢ|k′(vᵢ)·δvᵢ plus the
 //!   tolerance of the search (0 for the certified tree, tolerance·T for the published ones). δvᵢ is
 //!   u(26 + (24·D + 2⁻⁸·t)/Rᵢ) in a leaf of diagonal D, which no margin of the search itself exceeds.
 //!   So the surface is within δ/|∇F| of the hit. The start's own field is bounded with the same margins,
@@ -58,7 +58,7 @@ impl<F: Field> FieldTree<'_, F> {
             if v > 0.0 {
                 let steepness = self.field.strength(ball as usize) * kernel.slope_at_depth(v);
                 slope += offset * (2.0 * steepness / square);
-                error += steepness * depth_error(offset.length(), radius);
+                error += steepness.abs() * depth_error(offset.length(), radius);
                 smallest = smallest.min(radius);
             }
         }

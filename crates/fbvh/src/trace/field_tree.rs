@@ -16,6 +16,13 @@ pub(super) struct FieldTree<'a, F> {
     pub(super) polynomials: Polynomials,
 }
 
+/// How many balls of a list of the certified tree are negative: these come first.
+#[inline]
+pub(super) fn negative_balls(field: &impl Field, list: &[u32]) -> usize {
+    let is_negative = |&ball: &u32| field.strength(ball as usize) < 0.0;
+    if list.first().is_some_and(is_negative) { list.partition_point(is_negative) } else { 0 }
+}
+
 impl<F: Field> FieldTree<'_, F> {
     /// F along the ray, by the leaf's list. From the ball's centre to the ray's origin first: that
     /// difference is right to a float.

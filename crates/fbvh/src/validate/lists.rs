@@ -77,7 +77,7 @@ impl Tree {
         Ok(())
     }
 
-    /// Whether balls that reach a leaf's box but are not listed lift the field to T anywhere there:
+    /// Whether balls that reach a leaf's box but are not listed lift the field to T anywhere there, or lower it:
     /// on a lattice over the part of the box that each of them reaches.
     fn matter(&self, field: &impl Field, leaf: usize, missing: &[u32]) -> bool {
         let threshold = f64::from(field.threshold());
@@ -89,8 +89,9 @@ impl Tree {
                 Aabb::around_sphere(center, radius).intersection(&self.leaves[leaf].bounds());
             lattice(&part).any(|point| {
                 let with_list = value(field, &listed, point);
-                with_list < threshold * (1.0 - ROUNDING)
-                    && with_list + value(field, missing, point) > threshold
+                let whole = with_list + value(field, missing, point);
+                with_list < threshold * (1.0 - ROUNDING) && whole > threshold
+                    || with_list > threshold * (1.0 + ROUNDING) && whole < threshold
             })
         })
     }

@@ -2,11 +2,11 @@
 //!
 //! The first bytes choose an arrangement, a kernel, a threshold and a ray's start; the rest are
 //! balls. *Tame* balls lie on a coarse grid, so that many coincide, nest, touch, or lie in a plane or
-//! on a line, and one may be huge: certified answers must be the oracle's. *Wild* balls are any bits
+//! on a line, one may be huge, and some may be negative: certified answers must be the oracle's. *Wild* balls are any bits
 //! at all: a field that is no scene must be refused by builders as by [`Scene::new`], and nothing may
 //! panic.
 
-use fbvh::{Field, Options, Tracer, Tree};
+use fbvh::{BuildError, Field, Options, Tracer, Tree};
 use glam::Vec3;
 use metaball_core::reference::Oracle;
 use metaball_core::{Kernel, Metaball, Ray, Scene, Support};
@@ -87,6 +87,9 @@ pub(crate) fn build_and_trace(bytes: &[u8]) -> Outcome {
         let rays = [whole, later];
         let traced = trees.iter().zip(structures).flat_map(|tree| rays.map(|ray| (ray, tree)));
         for (ray, (tree, options)) in traced {
+            if matches!(tree, Err(BuildError::NegativeOfPublished { .. })) {
+                continue;
+            }
             let tree = tree.as_ref().expect("a scene has a tree");
             let tracer = Tracer::new(tree, &field);
             let (hit, any, exit) =
@@ -122,7 +125,8 @@ fn tame(arrangement: u8, bytes: &[u8]) -> Vec<Metaball> {
         let coordinate = |byte: u8| f32::from(byte % 16) / 2.0 - 4.0;
         let huge = if at == 0 && arrangement >= 128 { 100.0 } else { 1.0 };
         let center = onto * Vec3::new(coordinate(a), coordinate(b), coordinate(c));
-        let strength = 1.0 + f32::from(b / 16) / 8.0;
+        let takes_away = arrangement & 64 != 0 && at % 3 == 2;
+        let strength = (1.0 + f32::from(b / 16) / 8.0) * if takes_away { -0.5 } else { 1.0 };
         Metaball { center, radius: huge * (0.25 + f32::from(a / 16) / 8.0), strength }
     };
     bytes.as_chunks::<3>().0.iter().take(200).enumerate().map(ball).collect()

@@ -13,6 +13,17 @@ pub(crate) fn any_scene(balls: usize) -> impl Strategy<Value = Scene> {
     })
 }
 
+/// As [`any_scene`], in half of the cases with every third ball negative.
+pub(crate) fn any_signed_scene(balls: usize) -> impl Strategy<Value = Scene> {
+    (any_scene(balls), prop::bool::ANY, 0.2f32..2.0).prop_map(|(scene, is_carved, share)| {
+        let balls = scene.balls().enumerate().map(|(at, ball)| {
+            let factor = if is_carved && at % 3 == 1 { -share } else { 1.0 };
+            Metaball { strength: factor * ball.strength, ..ball }
+        });
+        Scene::new(balls, scene.kernel(), scene.threshold()).expect("legal balls")
+    })
+}
+
 fn any_balls(count: usize) -> impl Strategy<Value = Vec<Metaball>> {
     prop_oneof![
         4 => scattered(count, 0.3f32..1.5, 0.5f32..3.0),

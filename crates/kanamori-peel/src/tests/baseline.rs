@@ -5,7 +5,7 @@ use metaball_core::reference::{Oracle, Truth};
 use metaball_core::{Camera, Hit, HostMethod, Kernel, Metaball, Ray, Scene, Verdict};
 
 use super::random::Random;
-use crate::baseline::{Baseline, Method, NoPolynomial};
+use crate::baseline::{Baseline, Method, Refusal};
 
 fn scene(kernel: Kernel, balls: usize, spread: f32) -> Scene {
     let mut random = Random::new(7);
@@ -91,7 +91,7 @@ fn nothing_is_a_legal_scene_and_perlin_is_refused() {
     assert!(traced.hits.iter().all(|hit| *hit == Hit::MISS));
     let perlin = scene(Kernel::Perlin, 3, 1.0);
     let refusal = Baseline::build(&perlin, 1e-3).expect_err("refused");
-    assert_eq!(refusal, NoPolynomial { found: Kernel::Perlin });
+    assert_eq!(refusal, Refusal::NoPolynomial { found: Kernel::Perlin });
 }
 
 /// Among other methods it finds the same, under its name.

@@ -4,7 +4,7 @@ use metaball_shaders::ComposeError;
 use thiserror::Error;
 
 use super::FrameStatus;
-use crate::HostError;
+use crate::{HostError, Scene};
 
 /// Why something was not made on a device, or not drawn.
 #[derive(Debug, Error)]
@@ -130,6 +130,16 @@ impl RenderError {
     /// may draw this one.
     pub fn is_too_large(&self) -> bool {
         matches!(self, Self::TooLarge { .. } | Self::PictureSize { .. } | Self::OutOfMemory { .. })
+    }
+
+    /// Refuses a scene with negative balls, for a method whose bounds need every ball to add to the field.
+    ///
+    /// # Errors
+    /// [`RenderError::Unsupported`], which names the first negative ball.
+    pub fn check_positive(method: &'static str, scene: &Scene) -> Result<(), Self> {
+        scene
+            .negative_ball()
+            .map_or(Ok(()), |ball| Err(Self::Unsupported { method, reason: ball.to_string() }))
     }
 }
 

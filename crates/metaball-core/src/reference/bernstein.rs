@@ -39,8 +39,8 @@ impl Bernstein {
     /// The field on the whole segment, for the kernel Σ cₙ vⁿ.
     ///
     /// Coefficients are scaled by their binomial while they are summed: products are then plain
-    /// convolutions. As no term of any v is negative, nothing cancels, and each coefficient is good
-    /// to a relative (n + 50)·2e-16 for n balls.
+    /// convolutions. As no term of any v is negative, nothing in a ball's part cancels, and each coefficient is
+    /// good to (n + 50)·2e-16 of the sum of the sizes of n balls' parts.
     pub(super) fn new(segment: &Interval<'_>, kernel: &[f64]) -> Self {
         let degree = 2 * (kernel.len() - 1);
         let mut sum = [0.0; MAX_DEGREE + 1];

@@ -93,6 +93,11 @@ impl Chord {
         self.anchor + (self.offset + self.half)
     }
 
+    /// Whether the ball takes away from the field.
+    pub(super) fn is_negative(&self) -> bool {
+        self.strength < 0.0
+    }
+
     /// The ball in u = t − `origin`. The anchor and a nearby origin differ by an exact number.
     pub(super) fn relative_to(&self, origin: f64) -> Bump {
         Bump {
@@ -114,6 +119,21 @@ pub(super) struct Bump {
 }
 
 impl Bump {
+    /// Whether it adds to the field, and does not take away from it.
+    pub(super) fn adds(&self) -> bool {
+        self.strength > 0.0
+    }
+
+    /// The point of \[a, b\] that is nearest to the middle of the chord.
+    pub(super) fn nearest(&self, a: f64, b: f64) -> f64 {
+        self.middle.max(a).min(b)
+    }
+
+    /// The end of \[a, b\] that is farther from it.
+    pub(super) fn farthest(&self, a: f64, b: f64) -> f64 {
+        if self.middle - a > b - self.middle { a } else { b }
+    }
+
     /// v = 1 − r²/R², which is not negative on the chord.
     pub(super) fn depth(&self, u: f64) -> f64 {
         let x = u - self.middle;

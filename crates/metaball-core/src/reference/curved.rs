@@ -34,6 +34,7 @@ impl<'a> Curved<'a> {
     fn between(segment: &'a Interval<'a>, from: End, to: End) -> Self {
         let curvature = segment.bumps().fold((0.0, 0.0), |(low, high), bump| {
             let (least, greatest) = curvature(segment.kernel, &bump, from.u, to.u);
+            let (least, greatest) = if bump.adds() { (least, greatest) } else { (greatest, least) };
             (low + bump.strength * least, high + bump.strength * greatest)
         });
         Self { segment, from, to, curvature }

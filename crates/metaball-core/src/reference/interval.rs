@@ -13,7 +13,7 @@ pub(super) struct Interval<'a> {
     pub(super) length: f64,
     pub(super) kernel: Kernel,
     pub(super) chords: &'a [Chord],
-    /// Indices of the chords that overlap the interval.
+    /// Indices of the chords that overlap the interval, those of negative balls first.
     pub(super) active: &'a [usize],
 }
 
@@ -36,11 +36,13 @@ impl Interval<'_> {
         })
     }
 
-    /// The direction, if all balls rise throughout or all fall.
+    /// The direction, if all parts of the field rise throughout or all fall.
     pub(super) fn trend(&self) -> Option<Trend> {
-        if self.bumps().all(|bump| bump.middle >= self.length) {
+        let (before, behind) =
+            (|bump: &Bump| bump.middle >= self.length, |bump: &Bump| bump.middle <= 0.0);
+        if self.bumps().all(|bump| if bump.adds() { before(&bump) } else { behind(&bump) }) {
             Some(Trend::Rising)
-        } else if self.bumps().all(|bump| bump.middle <= 0.0) {
+        } else if self.bumps().all(|bump| if bump.adds() { behind(&bump) } else { before(&bump) }) {
             Some(Trend::Falling)
         } else {
             None
@@ -48,15 +50,15 @@ impl Interval<'_> {
     }
 
     /// Bounds of the field on \[a, b\]: the sum of the exact ranges of the balls, each of which rises
-    /// to the middle of its chord and falls from there.
+    /// to the middle of its chord and falls from there, or the other way round if it is negative.
     pub(super) fn range(&self, a: f64, b: f64) -> (f64, f64) {
         self.bumps().fold((0.0, 0.0), |(low, high), bump| {
             (low + self.least(&bump, a, b), high + self.greatest(&bump, a, b))
         })
     }
 
-    /// Whether the balls' exact ranges keep the field at or above `level` on the whole interval. Stops
-    /// at the first ball that settles it.
+    /// Whether the balls' exact ranges keep the field at or above a positive `level` on the whole interval.
+    /// Stops at the first ball that settles it: from where sums are positive on they only rise.
     pub(super) fn stays_above(&self, level: f64) -> bool {
         let mut low = 0.0;
         self.bumps().any(|bump| {
@@ -68,20 +70,29 @@ impl Interval<'_> {
     /// Whether they keep the field at or below `level` on the whole interval.
     pub(super) fn stays_below(&self, level: f64) -> bool {
         let mut high = 0.0;
-        self.bumps().all(|bump| {
+        let is_settled = self.bumps().any(|bump| {
             high += self.greatest(&bump, 0.0, self.length);
-            high <= level
-        })
+            bump.adds() && high > level
+        });
+        !is_settled && high <= level
     }
 
-    /// The ball's least value on \[a, b\]: at the end that is farther from the middle of its chord.
+    /// How far rounding may move the field for what negative balls take away: twice what
+    /// [`Bernstein`](super::bernstein::Bernstein) errs by.
+    pub(super) fn rounding(&self) -> f64 {
+        let negative = self.bumps().take_while(|bump| !bump.adds());
+        let taken = negative.fold(0.0, |taken, bump| taken - self.least(&bump, 0.0, self.length));
+        2.0 * f64::EPSILON * (self.active.len() as f64 + 50.0) * taken
+    }
+
+    /// The ball's least value on \[a, b\].
     fn least(&self, bump: &Bump, a: f64, b: f64) -> f64 {
-        self.value(bump, if bump.middle - a > b - bump.middle { a } else { b })
+        self.value(bump, if bump.adds() { bump.farthest(a, b) } else { bump.nearest(a, b) })
     }
 
-    /// The ball's greatest value on \[a, b\]: at the point nearest to the middle of its chord.
+    /// The ball's greatest value on \[a, b\].
     fn greatest(&self, bump: &Bump, a: f64, b: f64) -> f64 {
-        self.value(bump, bump.middle.max(a).min(b))
+        self.value(bump, if bump.adds() { bump.nearest(a, b) } else { bump.farthest(a, b) })
     }
 
     fn value(&self, bump: &Bump, u: f64) -> f64 {

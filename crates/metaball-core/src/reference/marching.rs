@@ -2,7 +2,8 @@
 //!
 //! Slow and plain on purpose. It uses no tree, no chords, no polynomials and no derivatives: only
 //! that each ball's part of the field rises along the ray to the point nearest to the ball's centre
-//! and falls from there, so that its range on an interval is known exactly.
+//! and falls from there, or the other way round if it is negative, so that its range on an interval is known
+//! exactly.
 
 use glam::DVec3;
 
@@ -46,7 +47,7 @@ pub fn march(scene: &Scene, ray: &Ray) -> March {
     let mut undecided: Option<f64> = None;
     let mut pending = vec![(start, profiles.end)];
     while let Some((from, to)) = pending.pop() {
-        if profiles.upper_bound(from, to) * (1.0 + GUARD) < threshold {
+        if profiles.upper_bound(from, to) < threshold {
             if let Some(low) = undecided {
                 return March { verdict: Verdict::Undecided, low, high: from };
             }
@@ -111,10 +112,15 @@ impl<'a> Profiles<'a> {
         self.balls.iter().map(|(ball, _)| self.value(ball, t)).sum()
     }
 
-    /// The sum of each ball's greatest value on the interval.
+    /// The sum of each ball's greatest value on the interval, with its guard.
     fn upper_bound(&self, from: f64, to: f64) -> f64 {
-        let greatest =
-            |(ball, nearest): &(Metaball, f64)| self.value(ball, nearest.max(from).min(to));
+        let greatest = |(ball, nearest): &(Metaball, f64)| {
+            if ball.is_negative() {
+                self.value(ball, from).max(self.value(ball, to)) * (1.0 - GUARD)
+            } else {
+                self.value(ball, nearest.max(from).min(to)) * (1.0 + GUARD)
+            }
+        };
         self.balls.iter().map(greatest).sum()
     }
 }

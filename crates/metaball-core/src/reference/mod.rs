@@ -21,7 +21,7 @@
 //! # Practice
 //! Distance costs no digits: each ball is measured from a nearby point of the ray, and each segment has
 //! an origin of its own. What remains is the rounding of f64, n·2e-16 of the summed field for
-//! n balls that overlap. That moves a crossing by as much divided by the slope there, beyond the
+//! n balls that overlap, or where balls are negative, of what adds and what takes away together. That moves a crossing by as much divided by the slope there, beyond the
 //! 1e-12 relative that t is otherwise good for: where a ray grazes, t is known to the square root
 //! only, and [`Truth::margin`] says so.
 //!
@@ -201,13 +201,15 @@ impl<'a> Oracle<'a> {
         });
     }
 
-    /// The chords of all balls that the line crosses between its start and its end.
+    /// The chords of all balls that the line crosses between its start and its end, those of negative balls
+    /// first.
     fn chords(&self, line: &Line) -> Vec<Chord> {
         let mut chords = Vec::new();
         self.tree.for_each(
             |min, max| line.meets(min, max),
             |index| chords.extend(Chord::new(line, &self.scene.ball(index))),
         );
+        chords.sort_by_key(|chord| !chord.is_negative());
         chords
     }
 }

@@ -35,11 +35,15 @@ impl Random {
 
     /// Overlapping balls in the cube from −1 to 1, the largest `ratio` times the smallest.
     fn scene(&mut self, kernel: Kernel, balls: usize, ratio: f32) -> Scene {
+        self.scene_of(Signs::Positive, kernel, balls, ratio)
+    }
+
+    fn scene_of(&mut self, signs: Signs, kernel: Kernel, balls: usize, ratio: f32) -> Scene {
         let balls: Vec<_> = (0..balls)
-            .map(|_| Metaball {
+            .map(|index| Metaball {
                 center: self.cube(1.0),
                 radius: 0.9 * ratio.powf(-self.unit()),
-                strength: self.between(0.3, 2.0),
+                strength: signs.of(index) * self.between(0.3, 2.0),
             })
             .collect();
         scene(balls, kernel, self.between(0.05, 0.9))
@@ -51,6 +55,22 @@ impl Random {
         let target = ball.center + ball.radius * self.cube(1.0);
         let origin = target + distance * self.direction();
         Ray::new(origin, (target - origin).try_normalize().unwrap_or(Vec3::Z))
+    }
+}
+
+/// Which balls of a scene are negative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Signs {
+    Positive,
+    /// Every third is negative, but not the first.
+    Mixed,
+}
+
+impl Signs {
+    const BOTH: [Self; 2] = [Self::Positive, Self::Mixed];
+
+    fn of(self, index: usize) -> f32 {
+        if self == Self::Mixed && index % 3 == 2 { -1.0 } else { 1.0 }
     }
 }
 
@@ -169,6 +189,53 @@ mod closed_forms {
         approx::assert_abs_diff_eq!(truth.exit, 5.0 + 0.75f64.sqrt(), epsilon = 1e-14);
         // In the middle the field is 2(1 − 1/16).
         approx::assert_abs_diff_eq!(truth.margin, 1.875 / 1.5 - 1.0, epsilon = 1e-9);
+    }
+
+    /// With α = 1 what a negative ball leaves of a larger one around it is 1 − t²/4 outside of it, and
+    /// 1 − t²/4 − (1 − t²) inside: a shell.
+    #[test]
+    fn a_ball_in_a_ball() {
+        let outer = Metaball::new(Vec3::ZERO, 2.0);
+        let inner = Metaball { strength: -1.0, ..Metaball::new(Vec3::ZERO, 1.0) };
+        let scene = scene([outer, inner], Kernel::power(1).expect("legal"), 0.5);
+        let oracle = Oracle::new(&scene);
+        let truth = oracle.first_hit(&Ray::new(Vec3::X * 5.0, Vec3::NEG_X));
+        let (surface, hollow) = (2.0f64.sqrt(), (2.0f64 / 3.0).sqrt());
+        approx::assert_abs_diff_eq!(truth.t, 5.0 - surface, epsilon = 1e-14);
+        approx::assert_abs_diff_eq!(truth.exit, 5.0 - hollow, epsilon = 1e-14);
+        // The field is greatest at the inner ball's rim.
+        approx::assert_abs_diff_eq!(truth.margin, 0.75 / 0.5 - 1.0, epsilon = 1e-9);
+        let within = oracle.first_hit(&Ray::new(Vec3::ZERO, Vec3::X));
+        assert_eq!((within.verdict, within.normal), (Verdict::Hit, DVec3::NEG_X));
+        approx::assert_abs_diff_eq!(within.t, hollow, epsilon = 1e-14);
+        approx::assert_abs_diff_eq!(within.exit, surface, epsilon = 1e-14);
+    }
+
+    /// What takes away as much as is added, to a part of T, leaves a field that is all rounding.
+    #[test]
+    fn balls_that_cancel() {
+        for kernel in Kernel::all() {
+            let mut random = Random(23);
+            let pair = |center| {
+                let ball = Metaball { strength: 1e6, ..Metaball::new(center, 1.0) };
+                [ball, Metaball { strength: -ball.strength, ..ball }]
+            };
+            let balls: Vec<_> = (0..6).flat_map(|_| pair(random.cube(0.5))).collect();
+            let lone = Metaball::new(Vec3::ZERO, 1.0);
+            let (field, alone) = (
+                scene(balls.iter().copied().chain([lone]), kernel, 0.5),
+                scene([lone], kernel, 0.5),
+            );
+            for _ in 0..20 {
+                let ray = random.ray(&alone, 3.0);
+                let expected = Oracle::new(&alone).first_hit(&ray);
+                let truth = Oracle::new(&field).first_hit(&ray);
+                if expected.margin > 1e-6 {
+                    assert_eq!(truth.verdict, expected.verdict, "{kernel}");
+                    assert!(truth.verdict == Verdict::Miss || (truth.t - expected.t).abs() < 1e-6);
+                }
+            }
+        }
     }
 
     /// Balls that touch: the chords have an end in common and the field a zero between two sheets.
@@ -336,8 +403,10 @@ mod against_marching {
         let smallest =
             scene.supports().iter().map(|support| support.radius).fold(f32::INFINITY, f32::min);
         let width = 2e-10 * (20.0 + f64::from(smallest));
-        let steepness: f64 =
-            scene.balls().map(|ball| f64::from(ball.strength) * 3.1 / f64::from(ball.radius)).sum();
+        let steepness: f64 = scene
+            .balls()
+            .map(|ball| f64::from(ball.strength.abs()) * 3.1 / f64::from(ball.radius))
+            .sum();
         if truth.margin * f64::from(scene.threshold()) <= 2.0 * width * steepness {
             return None;
         }
@@ -381,12 +450,16 @@ mod against_marching {
 
     #[test]
     fn both_oracles_agree() {
-        for (balls, ratio) in [(1, 1.0), (2, 3.0), (12, 4.0), (30, 100.0), (60, 2.0)] {
+        let positive = [(1, 1.0), (2, 3.0), (12, 4.0), (30, 100.0), (60, 2.0)];
+        let positive = positive.map(|(balls, ratio)| (Signs::Positive, balls, ratio));
+        let mixed = [(3, 3.0), (12, 4.0), (30, 100.0), (60, 2.0)];
+        let mixed = mixed.map(|(balls, ratio)| (Signs::Mixed, balls, ratio));
+        for (signs, balls, ratio) in positive.into_iter().chain(mixed) {
             for kernel in Kernel::all() {
                 let mut random = Random(balls as u64);
                 let mut counts = [0; 3];
                 for _ in 0..12 {
-                    let scene = random.scene(kernel, balls, ratio);
+                    let scene = random.scene_of(signs, kernel, balls, ratio);
                     let rays = rays(&mut random, &scene, 40);
                     for (sum, count) in counts.iter_mut().zip(compare(&scene, &scene, &rays)) {
                         *sum += count;
@@ -403,9 +476,12 @@ mod against_marching {
     /// noticed on rays towards that ball.
     #[test]
     fn a_wrong_oracle_is_caught() {
-        for kernel in Kernel::all() {
+        for (signs, kernel) in Signs::BOTH
+            .into_iter()
+            .flat_map(|signs| Kernel::all().map(move |kernel| (signs, kernel)))
+        {
             let mut random = Random(7);
-            let right = random.scene(kernel, 5, 3.0);
+            let right = random.scene_of(signs, kernel, 5, 3.0);
             // Below the greatest field of the first ball alone, so that it makes a surface.
             let threshold = 0.25 * right.ball(0).strength;
             let right = right.with_threshold(threshold).expect("legal");
@@ -464,8 +540,9 @@ mod against_sampling {
         let mut clear = 0;
         for kernel in Kernel::all() {
             let mut random = Random(3);
-            for _ in 0..60 {
-                let scene = random.scene(kernel, 12, 2.0);
+            for round in 0..60 {
+                let signs = Signs::BOTH[round % 2];
+                let scene = random.scene_of(signs, kernel, 12, 2.0);
                 let threshold = f64::from(scene.threshold());
                 let ray = Ray { t_max: 8.0, ..random.ray(&scene, 3.0) };
                 let oracle = Oracle::new(&scene);
@@ -488,7 +565,7 @@ mod against_sampling {
                 }
                 let sum = |term: fn(f64) -> f64| -> f64 {
                     let share =
-                        |ball: Metaball| f64::from(ball.strength) * term(ball.radius.into());
+                        |ball: Metaball| f64::from(ball.strength.abs()) * term(ball.radius.into());
                     scene.balls().map(share).sum()
                 };
                 let error = if kernel == Kernel::power(1).expect("legal") {
@@ -593,12 +670,13 @@ mod invariance {
         fn answers_are_well_formed(
             seed: u64,
             kernel in proptest::sample::select(Kernel::all().collect::<Vec<_>>()),
+            signs in proptest::sample::select(Signs::BOTH.to_vec()),
             balls in 0usize..40,
             log_ratio in 0.0f32..9.0,
             log_distance in -3.0f32..6.0,
         ) {
             let mut random = Random(seed);
-            let scene = random.scene(kernel, balls, 10f32.powf(log_ratio));
+            let scene = random.scene_of(signs, kernel, balls, 10f32.powf(log_ratio));
             let ray = if scene.is_empty() {
                 Ray::new(Vec3::ZERO, Vec3::Z)
             } else {
@@ -610,11 +688,12 @@ mod invariance {
             match truth.verdict {
                 Verdict::Miss => {
                     prop_assert!(truth.t.is_infinite());
-                    prop_assert!(truth.margin <= 1.0);
+                    prop_assert!(truth.margin <= 1.0 || signs == Signs::Mixed);
                 }
                 Verdict::Hit => {
                     prop_assert!(truth.t >= 0.0 && truth.exit.is_finite());
-                    prop_assert!(truth.smallest_radius > 0.0 && truth.margin <= 1.0);
+                    prop_assert!(truth.smallest_radius > 0.0);
+                    prop_assert!(truth.margin <= 1.0 || signs == Signs::Mixed);
                 }
                 Verdict::Inside => prop_assert_eq!(truth.t, 0.0),
                 Verdict::Undecided => prop_assert!(false, "the oracle decides"),

@@ -125,7 +125,7 @@ impl Walk {
 
     /// Visits pieces front to back, halving those that are not settled.
     fn follow<P: Piece>(&mut self, segment: &Interval<'_>, whole: P) -> ControlFlow<()> {
-        let mut pending = vec![whole];
+        let (mut pending, rounding) = (vec![whole], segment.rounding());
         while let Some(piece) = pending.pop() {
             let (from, to) = piece.span();
             let (first, last) = piece.ends();
@@ -143,7 +143,8 @@ impl Walk {
             }
             let middle = 0.5 * (from + to);
             let trend = piece.trend();
-            if trend.is_none() && !self.is_flat(low, high) && from < middle && middle < to {
+            if trend.is_none() && !self.is_flat(low, high, rounding) && from < middle && middle < to
+            {
                 let [first, second] = piece.split_at(middle);
                 pending.extend([second, first]);
                 continue;
@@ -186,11 +187,12 @@ impl Walk {
         self.highest_inside - self.threshold >= self.threshold - self.highest_before
     }
 
-    /// Whether all values of a piece with these bounds are the same within the tolerances.
-    fn is_flat(&self, low: f64, high: f64) -> bool {
+    /// Whether all values of a piece with these bounds are the same within the tolerances, and what
+    /// `rounding` may be.
+    fn is_flat(&self, low: f64, high: f64, rounding: f64) -> bool {
         let touches = low < self.threshold && high >= self.threshold;
         let tolerance = if touches { CROSSING_TOLERANCE } else { MAXIMUM_TOLERANCE };
-        high - low <= tolerance * self.threshold
+        high - low <= (tolerance * self.threshold).max(rounding)
     }
 
     fn enter(&mut self, t: f64) {

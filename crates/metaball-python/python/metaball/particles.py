@@ -67,7 +67,8 @@ class Particles:
         The radius R beyond which a particle adds nothing, instead: one for all, or shape (n,). Without
         either it is twice the median distance between neighbours.
     strength
-        The strength q > 0: one for all, or shape (n,); 1 where left out.
+        The strength q, not 0: one for all, or shape (n,); 1 where left out. A negative ball takes away from what
+        the others make; its `radius` is the one at which it would show if it added as much.
     color
         Colours, sRGB: one for all, shape (3,), or shape (n, 3); numbers from 0 to 1, or uint8 from 0 to 255.
 

@@ -20,6 +20,37 @@ pub(super) struct Parabolas {
     pub(super) strength: Lanes<f32>,
 }
 
+/// The balls that reach an interval, those of either sign for themselves.
+#[derive(Debug, Default)]
+pub(super) struct BySign {
+    pub(super) positive: Vec<Parabolas>,
+    /// With strengths above 0 and mirrored at the origin, so that their parts of the field fall where what they
+    /// leave of it rises: bounds of these are bounds of what is taken away, at −t.
+    pub(super) negative: Vec<Parabolas>,
+}
+
+impl BySign {
+    pub(super) fn clear(&mut self) {
+        self.positive.clear();
+        self.negative.clear();
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.positive.len() + self.negative.len()
+    }
+
+    #[inline(always)]
+    pub(super) fn push(&mut self, parabolas: Parabolas, is_negative: bool) {
+        if is_negative {
+            let zero = Lanes::splat(0.0f32);
+            let (linear, strength) = (zero - parabolas.linear, zero - parabolas.strength);
+            self.negative.push(Parabolas { linear, strength, ..parabolas });
+        } else {
+            self.positive.push(parabolas);
+        }
+    }
+}
+
 /// Sums over balls on an interval, each lane by itself.
 pub(super) struct Sums<const N: usize> {
     /// Coefficients, times their binomials, of a polynomial nowhere below the field but for rounding.

@@ -4,9 +4,9 @@
 //! # Why no root can be skipped
 //! Along a ray every ball's part of the field rises to the centre's projection m and falls behind it,
 //! because its kernel falls with distance. So on an interval \[a, b\] of the ray it is nowhere more
-//! than at the point of \[a, b\] nearest to m, and nowhere less than at the farther end. With positive
-//! strengths the sums of these bound the field, and where the upper one is below T there is no root.
-//! The bounds are exact in the limit of short intervals, and rest on no sampling and no assumption.
+//! than at the point of \[a, b\] nearest to m, and nowhere less than at the farther end. The sums of these
+//! bound what balls add to the field and what negative ones take away from it, the differences of the two
+//! sums bound the field, and where the upper one is below T there is no root. The bounds are exact in the limit of short intervals, and rest on no sampling and no assumption.
 //!
 //! The search goes through the leaf front to back. It skips intervals whose bound is below T and
 //! halves the others, until the field is certainly above T at an interval's end and certainly rises
@@ -20,7 +20,7 @@
 //! 4u·|p − o| from the ray's origin o. So v is right to [`Chord::margin`] =
 //! 32u(1 + |p − o′|/R)(1 + |p − o′|/R + |p − o|/R), which is added to v for upper bounds and taken
 //! off for lower ones. Each term of the sums is then right to 16u of itself and the sum of n of them
-//! to n·u more; terms of slopes, which have both signs, are lessened by as much each. A projection is
+//! to n·u more, of what is added and of what is taken away each for itself; terms of slopes, which have both signs, are lessened by as much each. A projection is
 //! misplaced by no more than the margin of v times R.
 //!
 //! The shader does the same in f32, u = 2⁻²³, relative to a nearby origin
@@ -74,6 +74,17 @@ struct Bounds {
     end_least: f64,
     /// Least radius among the balls that reach the interval.
     radius: f64,
+}
+
+/// Sums of what is nowhere more, and of what is nowhere less.
+#[derive(Debug, Clone, Copy)]
+struct Range {
+    most: f64,
+    least: f64,
+}
+
+impl Range {
+    const NONE: Self = Self { most: 0.0, least: 0.0 };
 }
 
 /// Half a unit in the last place of 1.
@@ -203,9 +214,9 @@ impl RangeSearch<'_> {
         let chords = self.chords;
         let slope_at = |v: f64| -self.query.kernel.slope(1.0 - v.clamp(0.0, 1.0));
         let value_at = |v: f64| self.query.kernel.value((1.0 - v).max(0.0));
-        let (mut most, mut least) = (0.0, 0.0);
-        let (mut end_most, mut end_least) = (0.0, 0.0);
-        let (mut most_slope, mut least_slope) = (0.0, 0.0);
+        let [mut added, mut taken] = [Range::NONE; 2];
+        let [mut end_added, mut end_taken] = [Range::NONE; 2];
+        let mut slope = Range::NONE;
         let mut smallest = f64::INFINITY;
         let summing = (chords.chords.len() + 24) as f64 * UNIT;
         for chord in &chords.chords {
@@ -214,30 +225,44 @@ impl RangeSearch<'_> {
                 continue;
             }
             let (v_start, v_end) = (chords.v(chord, low), chords.v(chord, high));
-            let q = chord.strength;
-            most += q * value_at(v_most);
             let v_least = v_start.min(v_end) - chord.margin;
-            least += q * value_at(v_least);
-            end_most += q * value_at(v_end + chord.margin);
-            end_least += q * value_at(v_end - chord.margin);
+            let q = chord.strength.abs();
+            let is_negative = chord.strength < 0.0;
+            let (sum, end) = if is_negative {
+                (&mut taken, &mut end_taken)
+            } else {
+                (&mut added, &mut end_added)
+            };
+            sum.most += q * value_at(v_most);
+            sum.least += q * value_at(v_least);
+            end.most += q * value_at(v_end + chord.margin);
+            end.least += q * value_at(v_end - chord.margin);
             // The slope is 2·q·k′/R² times the distance to the projection, which rounding may misplace.
             let factor = 2.0 * q * chord.inverse_square;
             let slopes = (slope_at(v_least).min(slope_at(v_most)), self.steepest(v_least, v_most));
             let misplaced = chord.margin * chord.radius;
-            least_slope += factor * least_product(slopes, chord.middle - high, misplaced, summing);
-            most_slope -= factor * least_product(slopes, low - chord.middle, misplaced, summing);
+            let rise = factor * least_product(slopes, chord.middle - high, misplaced, summing);
+            let fall = factor * least_product(slopes, low - chord.middle, misplaced, summing);
+            let (rise, fall) = if is_negative { (fall, rise) } else { (rise, fall) };
+            slope.least += rise;
+            slope.most -= fall;
             smallest = smallest.min(chord.radius);
         }
-        let up = |sum: f64| sum * (1.0 + summing) - self.query.threshold;
-        let down = |sum: f64| sum * (1.0 - summing) - self.query.threshold;
+        let more = |sum: f64| sum * (1.0 + summing);
+        let less = |sum: f64| sum * (1.0 - summing);
+        let up = |added: f64, taken: f64| more(added) - less(taken) - self.query.threshold;
+        let down = |added: f64, taken: f64| less(added) - more(taken) - self.query.threshold;
         match self.query.crossing {
-            Crossing::Entry => {
-                Bounds { most: up(most), least_slope, end_least: down(end_least), radius: smallest }
-            }
+            Crossing::Entry => Bounds {
+                most: up(added.most, taken.least),
+                least_slope: slope.least,
+                end_least: down(end_added.least, end_taken.most),
+                radius: smallest,
+            },
             Crossing::Exit => Bounds {
-                most: -down(least),
-                least_slope: -most_slope,
-                end_least: -up(end_most),
+                most: -down(added.least, taken.most),
+                least_slope: -slope.most,
+                end_least: -up(end_added.most, end_taken.least),
                 radius: smallest,
             },
         }

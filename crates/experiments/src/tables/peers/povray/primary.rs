@@ -106,7 +106,66 @@ fn depth_of(Rgb([coarse, fine, blue]): Rgb<u16>, range: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use fbvh::{Options, Tracer, Tree};
+    use glam::Vec3;
+    use metaball_core::reference::Oracle;
+    use metaball_core::{Camera, Kernel, Metaball};
+
     use super::*;
+    use crate::console;
+    use crate::tables::peers::povray::Povray;
+
+    /// Two balls joined, with a bite out of one and a dent in the other.
+    fn bitten() -> Scene {
+        let ball = |[x, y, z, radius, strength]: [f32; 5]| Metaball {
+            center: Vec3::new(x, y, z),
+            radius,
+            strength,
+        };
+        let balls = [
+            [-0.45, 0.0, 0.0, 1.0, 1.0],
+            [0.45, 0.1, 0.0, 1.1, 1.2],
+            [-0.6, 0.3, 0.7, 0.7, -1.5],
+            [0.8, -0.2, 0.6, 0.6, -0.4],
+        ];
+        Scene::new(balls.map(ball), Kernel::QUARTIC, 0.3).expect("legal")
+    }
+
+    /// Pixels on which hits are right, and on which they are not, where the truth is clear.
+    fn count(scene: &Scene, view: &View, hits: &[Hit]) -> [usize; 2] {
+        let truths = Oracle::new(scene).first_hits(&view.rays());
+        let mut counts = [0; 2];
+        for (truth, hit) in truths.iter().zip(hits).filter(|(truth, _)| truth.margin > 1e-3) {
+            let is_near = !hit.is_hit() || (f64::from(hit.t) - truth.t).abs() < 1e-3;
+            counts[usize::from(hit.verdict != truth.verdict || !is_near)] += 1;
+        }
+        counts
+    }
+
+    /// An independent program takes away what we do.
+    #[test]
+    fn negative_balls_are_its_negative_components() {
+        let scene = bitten();
+        let camera = Camera::look_at(Vec3::new(0.4, 0.9, 4.0), Vec3::ZERO, Vec3::Y, 38.0);
+        let view = View::new(camera.expect("legal"), 96, 72).expect("a size");
+        let whole = scene.balls().filter(|ball| !ball.is_negative());
+        let whole = Scene::new(whole, scene.kernel(), scene.threshold()).expect("legal");
+        let tree = Tree::build(&scene, &Options::certified()).expect("a tree");
+        let ours = Tracer::new(&tree, &scene).picture_hits(&view.rays(), 96);
+        assert_eq!(count(&scene, &view, &ours)[1], 0);
+        if Povray::find().expect("it runs where it is there").is_none() {
+            console::note("skipped: POV-Ray is not installed");
+            return;
+        }
+        let theirs = |scene| {
+            let drawn = Primary::new(scene, &view, 1).expect("written").hits();
+            drawn.expect("drawn").hits
+        };
+        let [right, wrong] = count(&scene, &view, &theirs(&scene));
+        assert!(right > 6_000 && wrong == 0, "{right} right, {wrong} wrong");
+        let [_, wrong] = count(&scene, &view, &theirs(&whole));
+        assert!(wrong > 200, "{wrong} wrong where nothing is taken away");
+    }
 
     #[test]
     fn depths_survive_two_channels() {

@@ -174,7 +174,7 @@ impl Sums {
         (farthest, high, margin): (Lanes<f32>, Lanes<f32>, Lanes<f32>),
     ) {
         let zero = Lanes::splat(0.0f32);
-        let (inverse, q) = (term.inverse_radius, term.strength);
+        let (inverse, q, size) = (term.inverse_radius, term.strength, term.strength.abs());
         let low = (zero - farthest - margin).map(|x| 1.0 + x);
         // A ball that does not reach a cell adds nothing there.
         let reaches = zero.is_less(high);
@@ -207,12 +207,13 @@ impl Sums {
             let reach = cell[axis] * inverse;
             range += offsets[axis].map(|x| (2.0 * x.abs() + reach) * reach);
         }
-        let steepest = reaches.select(p.steepest * q, zero);
-        self.magnitude += value_there + steepest * range;
+        let steepest = reaches.select(p.steepest * size, zero);
+        let greatest = reaches.select(p.value * size, zero);
+        self.magnitude += greatest + steepest * range;
         self.rounded += steepest * margin;
-        self.error += reaches.select(p.error * q, zero);
+        self.error += reaches.select(p.error * size, zero);
         let gradient = farthest.sqrt() * (2.000_02 * inverse);
-        self.steepness_error += reaches.select(p.slope_error * gradient * q, zero);
+        self.steepness_error += reaches.select(p.slope_error * gradient * size, zero);
     }
 
     /// The coefficients of the sum of all quadratics, less T and a polynomial, where the cell is

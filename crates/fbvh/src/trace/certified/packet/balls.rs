@@ -3,7 +3,7 @@
 use metaball_core::Aabb;
 
 use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
-use super::super::parabolas::{Parabolas, UNIT};
+use super::super::parabolas::{BySign, Parabolas, UNIT};
 use super::rays::{ExactPacket, Packet, length_squared};
 use crate::Field;
 
@@ -44,7 +44,7 @@ pub(super) struct Balls {
     pub(super) blocks: Vec<Block>,
     /// The balls that reach a ray's interval, and each along the rays.
     pub(super) kept: Vec<u32>,
-    pub(super) parabolas: Vec<Parabolas>,
+    pub(super) parabolas: BySign,
 }
 
 /// The rays' intervals in a leaf, each relative to a nearby origin: t there is `base` more than here,

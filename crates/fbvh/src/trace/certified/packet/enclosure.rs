@@ -3,7 +3,7 @@
 use super::super::bernstein::{inverse_binomials, right_of};
 use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, Mask, array_of};
-use super::super::parabolas::{Parabolas, Sums, UNIT};
+use super::super::parabolas::{BySign, Parabolas, Sums, UNIT};
 use super::super::query::Query;
 
 /// Bernstein coefficients that enclose F − T, lane by lane.
@@ -31,7 +31,7 @@ pub(super) trait Encloses<const N: usize> {
 pub(super) struct OfBalls<'a, K> {
     pub(super) kernel: K,
     pub(super) query: &'a Query,
-    pub(super) parabolas: &'a [Parabolas],
+    pub(super) parabolas: &'a BySign,
 }
 
 impl<K: LaneKernel<N>, const N: usize> Encloses<N> for OfBalls<'_, K> {
@@ -41,36 +41,104 @@ impl<K: LaneKernel<N>, const N: usize> Encloses<N> for OfBalls<'_, K> {
     }
 }
 
-impl<const N: usize> Enclosure<N> {
-    /// Encloses the field between `start` and `end`. Rounding as for a single ray, and 32u more for sums
-    /// and products here, which are f32.
+/// Polynomials above and below what balls of one sign add or take away on an interval, lane by lane, with all
+/// rounding.
+struct Part<const N: usize> {
+    upper: [Lanes<f32>; N],
+    lower: [Lanes<f32>; N],
+    /// At the interval's start at most this, and at its ends at least this.
+    start: Lanes<f32>,
+    ends: [Lanes<f32>; 2],
+    /// How far rounding of the parabolas can move it.
+    error: Lanes<f32>,
+    is_exact: Mask,
+    /// Where no ball's part decreases.
+    rises: Mask,
+    /// Values at the interval's ends of a line that its slope is nowhere below, and what rounding may be of
+    /// these; where the kernel bounds slopes.
+    rise: [Lanes<f32>; 2],
+    rise_error: Lanes<f32>,
+}
+
+impl<const N: usize> Part<N> {
+    /// Encloses the sum between `start` and `end`; `balls` are those of either sign. Rounding as for a single
+    /// ray, and 32u more for sums and products here, which are f32.
     #[inline(always)]
-    fn new<K: LaneKernel<N>>(balls: &OfBalls<'_, K>, start: Lanes<f32>, end: Lanes<f32>) -> Self {
-        let OfBalls { kernel, query, parabolas } = *balls;
+    fn new<K: LaneKernel<N>>(
+        (kernel, threshold): (K, f32),
+        parabolas: &[Parabolas],
+        balls: usize,
+        (start, end): (Lanes<f32>, Lanes<f32>),
+    ) -> Self {
         let sums = Sums::<N>::new(kernel, parabolas, start, end);
         let inverses = const { inverse_binomials::<N>() };
-        let threshold = query.threshold as f32;
-        let rounding = (parabolas.len() + 4 * N + 48 + K::ROUNDINGS) as f32 * UNIT;
+        let rounding = (balls + 4 * N + 48 + K::ROUNDINGS) as f32 * UNIT;
         let error = sums.error.map(|error| error * 1.0001 + 8.0 * UNIT * threshold);
         // Differences err by as much of what they are of, and so does what they are rounded by.
         let rounded = sums.magnitude * (2.0 * rounding);
         let most: [_; N] = array_of(|k| sums.most[k] * inverses[k] as f32);
         let least: [_; N] = array_of(|k| sums.least[k] * inverses[k] as f32);
-        let up = |c: Lanes<f32>| (c * (1.0 + rounding) + error).map(|c| c - threshold);
-        let down = |c: Lanes<f32>| (c * (1.0 - rounding) - error - rounded).map(|c| c - threshold);
+        let up = |c: Lanes<f32>| c * (1.0 + rounding) + error;
+        let down = |c: Lanes<f32>| c * (1.0 - rounding) - error - rounded;
         let differs = (0..N).fold(Mask::NONE, |differs, k| differs | !most[k].is_at_most(least[k]));
         Self {
             upper: array_of(|k| up(most[k])),
             lower: array_of(|k| down(least[k])),
             start: up(sums.start),
             ends: [down(sums.ends[0]), down(sums.ends[1])],
-            increases: if K::BOUNDS_SLOPES {
-                let least = sums.steepness * (4.0 * rounding);
-                least.is_less(sums.rise[0]) & least.is_less(sums.rise[1])
-            } else {
-                !sums.decreases
-            },
+            error,
             is_exact: !differs,
+            rises: !sums.decreases,
+            rise: sums.rise,
+            rise_error: sums.steepness * (4.0 * rounding),
+        }
+    }
+
+    /// What is left where a part is taken away that was enclosed [mirrored](BySign::negative).
+    #[inline(always)]
+    fn less(&self, taken: &Self) -> Self {
+        let last = N - 1;
+        Self {
+            upper: array_of(|k| self.upper[k] - taken.lower[last - k]),
+            lower: array_of(|k| self.lower[k] - taken.upper[last - k]),
+            start: self.start - taken.ends[1],
+            ends: [self.ends[0] - taken.upper[last], self.ends[1] - taken.start],
+            error: self.error + taken.error,
+            is_exact: self.is_exact & taken.is_exact,
+            rises: self.rises & taken.rises,
+            rise: [self.rise[0] + taken.rise[1], self.rise[1] + taken.rise[0]],
+            rise_error: self.rise_error + taken.rise_error,
+        }
+    }
+}
+
+impl<const N: usize> Enclosure<N> {
+    /// Encloses the field between `start` and `end`.
+    #[inline(always)]
+    fn new<K: LaneKernel<N>>(balls: &OfBalls<'_, K>, start: Lanes<f32>, end: Lanes<f32>) -> Self {
+        let OfBalls { kernel, query, parabolas } = *balls;
+        let BySign { positive, negative } = parabolas;
+        let (balls, threshold) = (parabolas.len(), query.threshold as f32);
+        let of = (kernel, threshold);
+        let mut field = Part::new(of, positive, balls, (start, end));
+        if !negative.is_empty() {
+            let zero = Lanes::splat(0.0f32);
+            let mirrored = (zero - end, zero - start);
+            field = field.less(&Part::new(of, negative, balls, mirrored));
+        }
+        let Part { upper, lower, start, ends, error, is_exact, rises, rise, rise_error } = field;
+        let excess = |c: Lanes<f32>| c.map(|c| c - threshold);
+        Self {
+            upper: upper.map(excess),
+            lower: lower.map(excess),
+            start: excess(start),
+            ends: ends.map(excess),
+            increases: if K::BOUNDS_SLOPES {
+                rise_error.is_less(rise[0]) & rise_error.is_less(rise[1])
+            } else {
+                rises
+            },
+            is_exact,
             is_known: error.is_less(Lanes::splat(threshold)),
         }
     }

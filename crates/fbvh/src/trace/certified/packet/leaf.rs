@@ -4,11 +4,11 @@
 //!
 //! Each lane has an interval of its own and the margins of its own ray, and depends on no other. What
 //! differs is what saves passes over the balls:
-//! - A ball that reaches no ray's interval is left out, and where the greatest values that the balls
+//! - A ball that reaches no ray's interval is left out, and where the greatest values that positive balls
 //!   have on an interval do not sum up to T, nothing crosses.
 //! - Where a ball reaches T alone, the first interval ends just before its projection.
 //! - An interval holds one crossing also where the field is below T at its start and above at its
-//!   end, and no ball that reaches it decreases on it: the field rises there, whatever rims there are.
+//!   end, and no ball's part that reaches it decreases on it: the field rises there, whatever rims there are.
 
 use std::mem;
 
@@ -238,14 +238,17 @@ impl Search<'_> {
                 if !(lanes & !top.is_at_most(zero)).any() {
                     continue;
                 }
-                // NaN stays NaN.
-                let most = kernel.value(zero.max(top)) * ball.strength;
-                upper_bound += most;
-                // Slope margins before the projection it certainly rises still.
-                let before = t - parabola.margin * ball.radius;
-                end = threshold.is_less(most).select(before.min(end), end);
+                let is_negative = ball.strength < 0.0;
+                if !is_negative {
+                    // NaN stays NaN.
+                    let most = kernel.value(zero.max(top)) * ball.strength;
+                    upper_bound += most;
+                    // Slope margins before the projection it certainly rises still.
+                    let before = t - parabola.margin * ball.radius;
+                    end = threshold.is_less(most).select(before.min(end), end);
+                }
                 kept.push(at as u32);
-                parabolas.push(parabola);
+                parabolas.push(parabola, is_negative);
             }
         }
         let rounding = (parabolas.len() + 34) as f32 * UNIT;

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, Mask, WIDTH, array_of, lanes_of};
 use super::super::nearest_float::{Excess, MOST_LOOKS, NearestFloat, Next};
+use super::super::parabolas::Parabolas;
 use super::super::query::Query;
 use super::balls::{Balls, RelativePacket};
 use super::rays::{ExactPacket, Packet};
@@ -46,12 +47,21 @@ pub(super) fn approach<K: LaneKernel<N>, const N: usize>(
     for _ in 0..MOST_STEPS {
         let mut excess = Lanes::splat(-query.threshold as f32);
         let mut rise = zero;
-        for ball in &balls.parabolas {
+        let parts = |ball: &Parabolas, t: Lanes<f32>| {
             let v = ball.constant + (ball.linear - ball.square * t) * t;
             let v = v.max(zero);
-            excess += ball.strength * kernel.value(v);
             let along = ball.linear - ball.square * t * 2.0;
-            rise += ball.strength * kernel.slope(v) * along;
+            (ball.strength * kernel.value(v), ball.strength * kernel.slope(v) * along)
+        };
+        for ball in &balls.parabolas.positive {
+            let (value, slope) = parts(ball, t);
+            excess += value;
+            rise += slope;
+        }
+        for ball in &balls.parabolas.negative {
+            let (value, slope) = parts(ball, zero - t);
+            excess = excess - value;
+            rise += slope;
         }
         let is_above = zero.is_at_most(excess);
         high = is_above.select(t, high);

@@ -4,8 +4,9 @@ use glam::{DVec3, Vec3};
 use metaball_core::{Aabb, Ray};
 
 use super::super::lanes::{Lanes, WIDTH, array_of};
-use super::super::parabolas::{Parabolas, UNIT};
+use super::super::parabolas::{BySign, Parabolas, UNIT};
 use crate::Field;
+use crate::trace::field_tree::negative_balls;
 
 /// Eight balls, relative to the middle of their leaf's box.
 #[derive(Debug, Clone)]
@@ -20,6 +21,7 @@ pub(super) struct Block {
     inverse_radius: Lanes<f32>,
     /// Strengths; 0 in a lane without a ball.
     pub(super) strength: Lanes<f32>,
+    is_negative: bool,
 }
 
 /// The leaf that has been loaded for a ray; kept from leaf to leaf for its memory.
@@ -28,8 +30,9 @@ pub(in crate::trace::certified) struct Blocks {
     leaf: Option<usize>,
     pub(super) middle: DVec3,
     pub(super) least_radius: f64,
+    /// Of balls of one sign each, negative ones first.
     pub(super) blocks: Vec<Block>,
-    pub(super) parabolas: Vec<Parabolas>,
+    pub(super) parabolas: BySign,
 }
 
 /// A ray's interval in a leaf, relative to a nearby origin: t there is `base` more than here, where it
@@ -61,7 +64,8 @@ impl Blocks {
         self.middle = bounds.center().as_dvec3();
         self.least_radius = f64::INFINITY;
         self.blocks.clear();
-        for balls in list.chunks(WIDTH) {
+        let (negative, positive) = list.split_at(negative_balls(field, list));
+        for balls in negative.chunks(WIDTH).chain(positive.chunks(WIDTH)) {
             let mut exact = [Lanes::splat(0.0); 3];
             let mut radius = [1.0f64; WIDTH];
             let mut strength = Lanes::splat(0.0);
@@ -84,6 +88,7 @@ impl Blocks {
                 inverse_square_f32: inverse_square.map(|x| x as f32),
                 inverse_radius: inverse.map(|x| x as f32),
                 strength,
+                is_negative: strength.0[0] < 0.0,
             });
         }
     }
@@ -122,7 +127,7 @@ impl Blocks {
         let reach = (reach * 1.000_001) as f32;
         let square = square as f32;
         self.parabolas.clear();
-        self.parabolas.extend(self.blocks.iter().map(|block| {
+        for block in &self.blocks {
             let offset = |axis: usize| block.center[axis] - Lanes::splat(origin[axis]);
             let (x, y, z) = (offset(0), offset(1), offset(2));
             let Vec3 { x: dx, y: dy, z: dz } = direction;
@@ -130,14 +135,15 @@ impl Blocks {
             let distance = (x * x + y * y + z * z) * block.inverse_square_f32;
             let reaches = distance.sqrt() + block.inverse_radius * reach;
             let margin = (reaches * reaches).map(|x| MARGIN * (1.0 + x));
-            Parabolas {
+            let parabolas = Parabolas {
                 constant: distance.map(|x| 1.0 - x),
                 linear: along * block.inverse_square_f32 * 2.0,
                 square: block.inverse_square_f32 * square,
                 margin,
                 slope_margin: margin * block.inverse_radius,
                 strength: block.strength,
-            }
-        }));
+            };
+            self.parabolas.push(parabolas, block.is_negative);
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::super::bernstein::inverse_binomials;
 use super::super::kernel::LaneKernel;
 use super::super::lanes::{Lanes, array_of};
-use super::super::parabolas::{Parabolas, Sums, UNIT};
+use super::super::parabolas::{BySign, Parabolas, Sums, UNIT};
 use super::super::query::{Crossing, Query};
 
 /// Bernstein coefficients that enclose what is to cross zero upwards: F − T for an entry, T − F for an
@@ -20,49 +20,106 @@ pub(super) struct Enclosure<const N: usize> {
     pub(super) increases: bool,
 }
 
-impl<const N: usize> Enclosure<N> {
-    /// Encloses the field between `start` and `end`; `None` where rounding is as large as T.
+/// Polynomials above and below what balls of one sign add or take away on an interval, with all rounding.
+struct Part<const N: usize> {
+    upper: [f64; N],
+    lower: [f64; N],
+    /// At the interval's start at most this, and at its ends at least this.
+    start: f64,
+    ends: [f64; 2],
+    /// How far rounding of the parabolas can move it.
+    error: f64,
+    is_exact: bool,
+    /// Values at the interval's ends of a line that its slope is nowhere below, where the kernel bounds slopes.
+    rise: [f64; 2],
+}
+
+impl<const N: usize> Part<N> {
+    /// Encloses the sum between `start` and `end`; `balls` are those of either sign, eight each.
     #[inline(always)]
-    pub(super) fn new<K: LaneKernel<N>>(
+    fn new<K: LaneKernel<N>>(
         kernel: K,
-        query: &Query,
         parabolas: &[Parabolas],
+        balls: usize,
         (start, end): (f32, f32),
-    ) -> Option<Self> {
+    ) -> Self {
         let (start, end) = (Lanes::splat(start), Lanes::splat(end));
         let Sums { most, least, start: at_start, ends, error, magnitude, rise, steepness, .. } =
             Sums::<N>::new(kernel, parabolas, start, end);
         let inverses = const { inverse_binomials::<N>() };
         // Products and sums of non-negative terms: one rounding each. Differences err by as much of what they
         // are of, and so does what they are rounded by.
-        let rounding = (parabolas.len() + 4 * N + 16 + K::ROUNDINGS) as f64 * f64::from(UNIT);
+        let rounding = (balls + 4 * N + 16 + K::ROUNDINGS) as f64 * f64::from(UNIT);
         let error = f64::from(error.sum()) * 1.0001;
         let rounded = f64::from(magnitude.sum()) * (2.0 * rounding);
-        // NaN where margins overflow, of balls that are tiny compared with the leaf.
-        if error.is_nan() || error >= query.threshold {
-            return None;
-        }
         let most: [f64; N] = array_of(|k| f64::from(most[k].sum()) * inverses[k]);
         let least: [f64; N] = array_of(|k| f64::from(least[k].sum()) * inverses[k]);
-        let is_exact = most == least;
-        let up = |c: f64| c * (1.0 + rounding) + error - query.threshold;
-        let down = |c: f64| c * (1.0 - rounding) - error - rounded - query.threshold;
+        let up = |c: f64| c * (1.0 + rounding) + error;
+        let down = |c: f64| c * (1.0 - rounding) - error - rounded;
         let least_slope = f64::from(steepness.sum()) * 4.0 * rounding;
-        let rise = rise.map(|rise| f64::from(rise.sum()));
+        Self {
+            upper: array_of(|k| up(most[k])),
+            lower: array_of(|k| down(least[k])),
+            start: up(at_start.sum().into()),
+            ends: array_of(|k| down(ends[k].sum().into())),
+            error,
+            is_exact: most == least,
+            rise: array_of(|k| f64::from(rise[k].sum()) - least_slope),
+        }
+    }
+
+    /// What is left where a part is taken away that was enclosed [mirrored](BySign::negative).
+    #[inline(always)]
+    fn less(&self, taken: &Self) -> Self {
+        let last = N - 1;
+        Self {
+            upper: array_of(|k| self.upper[k] - taken.lower[last - k]),
+            lower: array_of(|k| self.lower[k] - taken.upper[last - k]),
+            start: self.start - taken.ends[1],
+            ends: [self.ends[0] - taken.upper[last], self.ends[1] - taken.start],
+            error: self.error + taken.error,
+            is_exact: self.is_exact && taken.is_exact,
+            rise: [self.rise[0] + taken.rise[1], self.rise[1] + taken.rise[0]],
+        }
+    }
+}
+
+impl<const N: usize> Enclosure<N> {
+    /// Encloses the field between `start` and `end`; `None` where rounding is as large as T.
+    #[inline(always)]
+    pub(super) fn new<K: LaneKernel<N>>(
+        kernel: K,
+        query: &Query,
+        parabolas: &BySign,
+        (start, end): (f32, f32),
+    ) -> Option<Self> {
+        let BySign { positive, negative } = parabolas;
+        let balls = parabolas.len();
+        let mut field = Part::new(kernel, positive, balls, (start, end));
+        if !negative.is_empty() {
+            field = field.less(&Part::new(kernel, negative, balls, (-end, -start)));
+        }
+        // NaN where margins overflow, of balls that are tiny compared with the leaf.
+        if field.error.is_nan() || field.error >= query.threshold {
+            return None;
+        }
+        let Part { upper, lower, start, ends, is_exact, rise, .. } = field;
+        let excess = |c: f64| c - query.threshold;
+        let (upper, lower) = (upper.map(excess), lower.map(excess));
         Some(match query.crossing {
             Crossing::Entry => Self {
-                upper: array_of(|k| up(most[k])),
-                lower: array_of(|k| down(least[k])),
-                start: up(at_start.sum().into()),
-                ends: array_of(|k| down(ends[k].sum().into())),
+                upper,
+                lower,
+                start: excess(start),
+                ends: ends.map(excess),
                 is_exact,
-                increases: K::BOUNDS_SLOPES && rise.iter().all(|&rise| rise > least_slope),
+                increases: K::BOUNDS_SLOPES && rise.iter().all(|&rise| rise > 0.0),
             },
             Crossing::Exit => Self {
-                upper: array_of(|k| -down(least[k])),
-                lower: array_of(|k| -up(most[k])),
-                start: -down(least[0]),
-                ends: [-up(most[0]), -up(most[N - 1])],
+                upper: lower.map(|c| -c),
+                lower: upper.map(|c| -c),
+                start: -lower[0],
+                ends: [-upper[0], -upper[N - 1]],
                 is_exact,
                 increases: false,
             },
