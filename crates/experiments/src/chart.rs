@@ -21,6 +21,7 @@ use metaball_core::gpu::{AdapterChoice, Gpu};
 use self::moved::moved;
 use self::plan::{Planned, Purpose, plan};
 use self::record::{Chart, Group, SCHEMA};
+use crate::compare::results;
 use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any};
 use crate::extent::Extent;
@@ -114,6 +115,10 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
     write_csv(&csv, records)?;
     write_atomically(&page, page::page(&chart).as_bytes())?;
 
+    if !options.only.is_empty() {
+        let records = chart.groups.iter().flat_map(|group| group.records.clone());
+        console::line(&results(&records.collect::<Vec<_>>()));
+    }
     for sentence in conclusions(&chart.error_records()) {
         console::line(&sentence);
     }

@@ -3,6 +3,7 @@
 use fbvh::{Options, Tracer, Tree};
 use glam::Vec3;
 use harness::methods::find;
+use harness::renderer::Renderer;
 use metaball_core::gpu::{Gpu, RenderError};
 use metaball_core::{Image, NO_LIMIT, Scene, View};
 use metaball_light::{Effects, Film, Floor, Lamp, Occlusion, Surface, cpu, gpu};
@@ -103,8 +104,7 @@ fn gpu_picture(
     seed: u32,
 ) -> anyhow::Result<(Image, Vec<u32>)> {
     let method = find("fbvh-certified").map(|method| method.renderer(false));
-    let mut renderer =
-        method.and_then(|renderer| renderer.on_adapter()).ok_or(RenderError::NoAdapter)?;
+    let mut renderer = method.and_then(Renderer::on_adapter).ok_or(RenderError::NoAdapter)?;
     renderer.build(gpu, scene)?;
     let mut tracer = gpu::PathTracer::new(gpu, scene, view, effects.clone(), SAMPLES, seed)?;
     for _ in 0..SAMPLES {

@@ -40,9 +40,11 @@ struct LitScene {
 /// # Errors
 /// When pictures differ, the device fails, or the file cannot be written.
 pub(super) fn measure(gpu: &Gpu, scale: Scale, out: &Path) -> anyhow::Result<()> {
-    let (scenes, (width, height)): (&[&str], _) = match scale {
-        Scale::Whole => (&["random-200", "colors-100", "strengths-100", "molecule"], (320, 240)),
-        Scale::Rehearsal => (&["two-merging"], (32, 24)),
+    let (scenes, (width, height), effects): (&[&str], _, _) = match scale {
+        Scale::Whole => {
+            (&["random-200", "colors-100", "strengths-100", "molecule"], (320, 240), usize::MAX)
+        }
+        Scale::Rehearsal => (&["two-merging"], (32, 24), 2),
     };
     let (provenance, adapter) = (Provenance::here(SCHEMA), Adapter::of(Some(gpu)));
     let mut twins = LitTwins { provenance, adapter, width, height, scenes: Vec::new() };
@@ -50,7 +52,7 @@ pub(super) fn measure(gpu: &Gpu, scale: Scale, out: &Path) -> anyhow::Result<()>
         let bench = load(scene, &Overrides::default())?;
         let view = View::new(bench.camera, width, height)?;
         let mut differences = Vec::new();
-        for effect in lit_effects(&bench.scene, &view) {
+        for effect in lit_effects(&bench.scene, &view).into_iter().take(effects) {
             let difference = lit_difference(gpu, &bench.scene, &view, &effect, (7, 7));
             let difference = difference.with_context(|| format!("{scene}, {}", effect.0))?;
             console::line(&line(scene, &difference));

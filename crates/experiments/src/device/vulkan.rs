@@ -17,8 +17,8 @@ use metaball_core::gpu::{AdapterChoice, Gpu};
 use picture_files::write_atomically;
 use serde::{Deserialize, Serialize};
 
-use super::adapter_arguments;
-use super::process::{Job, run_job};
+use super::process::{Job, LOG, run_job};
+use super::{adapter_arguments, nvidia};
 use crate::unfinished;
 
 /// What there is, and what there is not.
@@ -32,8 +32,8 @@ pub struct Vulkan {
     pub loader: Option<PathBuf>,
     /// Manifests of drivers, and the libraries that they name.
     pub manifests: Vec<Manifest>,
-    /// NVIDIA's kernel driver, in its own words.
-    pub nvidia_kernel_driver: Option<String>,
+    /// NVIDIA's driver, in its own words; `null` where there is none.
+    pub nvidia_driver: Option<String>,
     /// What is missing, in words.
     pub missing: Vec<String>,
 }
@@ -102,7 +102,26 @@ impl Vulkan {
                 }
             }
         }
+        vulkan.note_what_was_found(&out.join("adapter"));
         Ok(vulkan)
+    }
+
+    /// Says what was found instead of a graphics processor where there should be one, or any adapter.
+    fn note_what_was_found(&mut self, folder: &Path) {
+        let driver = self.nvidia_driver.as_deref();
+        match (&self.adapter, driver) {
+            (Some(adapter), Some(driver)) if adapter.processor != Some(Processor::Gpu) => {
+                let note =
+                    format!("adapter: needed a graphics processor of {driver}, found {adapter}");
+                self.missing.push(note);
+            }
+            (None, _) => {
+                let log = fs::read_to_string(folder.join(LOG)).unwrap_or_default();
+                let said = log.lines().next().unwrap_or("nothing").to_owned();
+                self.missing.push(format!("adapter: needed one, found {said}"));
+            }
+            _ => {}
+        }
     }
 
     fn look() -> Self {
@@ -111,14 +130,10 @@ impl Vulkan {
             .into_iter()
             .filter_map(|path| Manifest::read(path, &folders))
             .collect();
-        let version = fs::read_to_string("/proc/driver/nvidia/version").ok();
-        let nvidia_kernel_driver = version
-            .and_then(|text| text.lines().next().map(str::to_owned))
-            .or_else(|| Path::new("/dev/nvidia0").exists().then(|| "/dev/nvidia0".to_owned()));
+        let nvidia_driver = nvidia_driver();
         let loader = find_library(LOADER, &folders);
-        let missing =
-            missing(loader.as_ref(), &manifests, nvidia_kernel_driver.is_some(), &folders);
-        Self { loader, manifests, nvidia_kernel_driver, missing, ..Self::default() }
+        let missing = missing(loader.as_ref(), &manifests, nvidia_driver.is_some(), &folders);
+        Self { loader, manifests, nvidia_driver, missing, ..Self::default() }
     }
 
     /// Environments to try: as it is; then, where there is an NVIDIA driver, with each manifest that the
@@ -129,7 +144,7 @@ impl Vulkan {
             _ => BTreeMap::new(),
         };
         let mut ways = vec![base.clone()];
-        if self.nvidia_kernel_driver.is_none() {
+        if self.nvidia_driver.is_none() {
             return Ok(ways);
         }
         let mut add = |manifest: &Path, library: &Path| {
@@ -157,6 +172,16 @@ impl Vulkan {
         }
         Ok(ways)
     }
+}
+
+/// What there is to see of NVIDIA's driver: of the kernel's, of the device, or of the tool.
+fn nvidia_driver() -> Option<String> {
+    let version = fs::read_to_string("/proc/driver/nvidia/version").ok();
+    let device = "/dev/nvidia0";
+    version
+        .and_then(|text| text.lines().next().map(str::to_owned))
+        .or_else(|| Path::new(device).exists().then(|| device.to_owned()))
+        .or_else(nvidia::describe)
 }
 
 /// Opens the adapter in a process with these variables.
@@ -311,10 +336,11 @@ mod tests {
         let manifest = Manifest::read(written.expect("written"), &folders).expect("a manifest");
         assert!(manifest.found.is_some());
         let loader = find_library(LOADER, &folders);
-        assert_eq!(missing(loader.as_ref(), &[manifest.clone()], true, &folders), [""; 0]);
+        let mut manifests = [manifest];
+        assert_eq!(missing(loader.as_ref(), &manifests, true, &folders), [""; 0]);
 
-        let lost = Manifest { found: None, ..manifest };
-        let text = missing(loader.as_ref(), &[lost], true, &folders).join("\n");
+        manifests[0].found = None;
+        let text = missing(loader.as_ref(), &manifests, true, &folders).join("\n");
         assert!(text.contains("own.json: needed the library"), "{text}");
         assert_eq!(Manifest::read(folder.path().join(LOADER), &folders), None);
     }
