@@ -44,7 +44,7 @@ pub struct Options {
     pub time: Duration,
     /// What to draw with.
     pub adapter: AdapterChoice,
-    /// Folder for `device.json`, `summary.md`, and a folder for each part.
+    /// Folder for `device.json`, `summary.txt`, and a folder for each part.
     pub out: PathBuf,
 }
 
@@ -53,7 +53,7 @@ pub struct Options {
 /// # Errors
 /// When a file cannot be written; in the end, when a part has failed, or on a rehearsal a canary has not.
 pub fn device(options: &Options) -> anyhow::Result<()> {
-    let [json, summary] = output_files(&options.out, ["device.json", "summary.md"], &[], &[])?;
+    let [json, summary] = output_files(&options.out, ["device.json", "summary.txt"], &[], &[])?;
     let start = Instant::now();
     let vulkan = Vulkan::open(&options.out, &options.adapter)?;
     vulkan.missing.iter().for_each(|missing| console::note(missing));

@@ -22,7 +22,7 @@ pub(crate) struct DeviceArgs {
     /// Without an adapter, in one part alone.
     #[arg(long, hide = true, requires = "part", conflicts_with_all = ["adapter", "software"])]
     cpu: bool,
-    /// Folder for device.json, summary.md, and a folder for each part.
+    /// Folder for device.json, summary.txt, and a folder for each part.
     #[arg(long, value_name = "DIR", default_value = "out/device")]
     out: PathBuf,
     #[command(flatten)]

@@ -93,7 +93,7 @@ enum Command {
     /// scene, size, density and effect.
     ///
     /// Each part is a process of its own with a share of the time, so none ends another. After each, all that
-    /// is known so far is in device.json and summary.md. Without an adapter they say what is missing, and the
+    /// is known so far is in device.json and summary.txt. Without an adapter they say what is missing, and the
     /// CPU measures what it can.
     Device(DeviceArgs),
     /// Write the particles of a file in another format: extended XYZ, CSV, NPY, PLY or VTP.

@@ -13,7 +13,7 @@ fn rehearse(arguments: &[&str]) -> (bool, DeviceRecord, String) {
         .output()
         .expect("started");
     let read = |name: &str| std::fs::read_to_string(out.path().join(name)).expect("written");
-    let (record, summary) = (read("device.json"), read("summary.md"));
+    let (record, summary) = (read("device.json"), read("summary.txt"));
     (output.status.success(), serde_json::from_str(&record).expect("a record"), summary)
 }
 

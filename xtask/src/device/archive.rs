@@ -16,7 +16,7 @@ const FOLDER: &str = "metaball-device";
 const SCRIPT: &str = "\
 #!/bin/sh
 # Measures this machine's graphics processor: eight minutes, or as arguments say (run --help).
-# Results are in out/device, or where --out says: device.json has all of it, summary.md says it in short.
+# Results are in out/device, or where --out says: device.json has all of it, summary.txt says it in short.
 exec \"${0%/*}/metaball\" device \"$@\"
 ";
 

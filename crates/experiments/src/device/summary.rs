@@ -1,11 +1,11 @@
-//! `summary.md`: the run at a glance, and what each part printed.
+//! `summary.txt`: the run at a glance, and what each part printed.
 
 use harness::numbers::decimal;
 
 use super::record::{DeviceRecord, Outcome, PartRecord, Span};
 use crate::console;
 
-/// All of it, as Markdown.
+/// All of it, in the marks of Markdown.
 pub(super) fn summary(record: &DeviceRecord) -> String {
     let mut text = format!("# {}\n\n{}\n", title(record), facts(record));
     for missing in &record.vulkan.missing {
