@@ -4,7 +4,7 @@ mod archive;
 mod glibc;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::adapter;
 use crate::run::{cargo, say, to_the_end};
@@ -12,8 +12,6 @@ use crate::run::{cargo, say, to_the_end};
 /// The program without its window: it needs libc, and Vulkan's loader once it runs.
 const PROGRAM: [&str; 6] =
     ["--package", "metaball-cli", "--no-default-features", "--bin", "metaball", "--profile"];
-
-const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
 /// Measures here, or packs what measures elsewhere.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
@@ -36,13 +34,14 @@ fn measure(arguments: &[String]) -> Result<(), String> {
 
 /// Builds the program without symbols, and packs it with the loader of this machine and a script.
 fn pack() -> Result<(), String> {
-    let target = Path::new(ROOT).join("target");
+    let root = root();
+    let target = root.join("target");
     let mut build = cargo();
     build.env("METABALL_COMMIT", commit()).arg("build").args(PROGRAM).arg("packed");
     to_the_end(build.arg("--target-dir").arg(&target))?;
     let program = target.join("packed").join("metaball");
     let loader = adapter::loader();
-    let archive = archive::write(&program, loader.as_deref(), &Path::new(ROOT).join("out"))?;
+    let archive = archive::write(&program, loader.as_deref(), &root.join("out"))?;
     say(&format!(
         "{}: {:.1} MB; needs {}{}.\nUnpacked elsewhere: metaball-device/run",
         archive.path.display(),
@@ -56,14 +55,20 @@ fn pack() -> Result<(), String> {
     Ok(())
 }
 
-fn read(file: &PathBuf) -> Result<Vec<u8>, String> {
+fn read(file: &Path) -> Result<Vec<u8>, String> {
     fs::read(file).map_err(|error| format!("{}: {error}", file.display()))
+}
+
+/// The folder of the workspace.
+fn root() -> &'static Path {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().unwrap_or(own)
 }
 
 /// The commit of the sources, which git cannot say where the program runs.
 fn commit() -> String {
     let arguments = ["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"];
-    let output = std::process::Command::new("git").args(arguments).current_dir(ROOT).output();
+    let output = std::process::Command::new("git").args(arguments).current_dir(root()).output();
     let text = output.ok().filter(|output| output.status.success());
     let text = text.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned());
     text.unwrap_or_else(|| "unknown".to_owned())

@@ -1,15 +1,15 @@
 //! Shaders without wgpu's checks of indices and loops find what those with them do, bit for bit.
 
 use glam::Vec3;
-use harness::renderer::Renderer;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::{AdapterChoice, Gpu, ShaderChecks};
 use metaball_core::{Hit, Verdict};
 
-use super::{draw, load, methods_on_adapter, on_gpu, renderer, view_of};
+use super::fixtures::{fixture, picture};
+use super::{draw, methods_on_adapter, on_gpu, preset, renderer};
 
-/// Strengths and colours; more coincident points than lists hold, and an eye in the solid, which share shaders.
-const SCENES: [&str; 3] = ["colors-100", "fifteen-coincident", "eye-inside-surface"];
+/// More coincident points than lists hold, and an eye in the solid: they share shaders.
+const SCENES: [&str; 2] = ["fifteen-coincident", "eye-inside-surface"];
 
 pub(super) fn trials() -> Vec<Trial> {
     let of_method = |method: &'static str| {
@@ -26,14 +26,12 @@ fn unchecked_as_checked(gpu: &Gpu, method: &str) -> Result<(), Failed> {
         ShaderChecks::Off => ShaderChecks::On,
     };
     let other = Gpu::new(&AdapterChoice::Environment)?.with_shader_checks(other);
-    let (mut ours, mut others) = (renderer(method)?, renderer(method)?);
+    let mut renderer = renderer(method)?;
     for scene in SCENES {
-        let scene = load(scene)?;
-        let hits = |gpu: &Gpu, renderer: &mut Renderer| -> Result<Vec<Hit>, Failed> {
-            Ok(draw(gpu, renderer, &scene.scene, &view_of(&scene)?)?.hits)
-        };
-        let same = same(&hits(gpu, &mut ours)?, &hits(&other, &mut others)?);
-        same.map_err(|differing| format!("{}: {differing} pixels differ", scene.name))?;
+        let fixture = fixture(gpu, scene)?;
+        let drawn = draw(&other, &mut renderer, &fixture.scene.scene, &fixture.view)?;
+        let same = same(&picture(gpu, scene, &preset(method)?)?, &drawn.hits);
+        same.map_err(|differing| format!("{scene}: {differing} pixels differ"))?;
     }
     Ok(())
 }

@@ -82,7 +82,7 @@ pub(super) fn measure(gpu: Option<&Gpu>, scale: Scale, out: &Path) -> anyhow::Re
     Ok(())
 }
 
-const REHEARSED: &[&str] = &["fbvh-certified", "fbvh-certified-cpu", "illes-robust"];
+const REHEARSED: &[&str] = &["fbvh-certified", "fbvh-certified-cpu"];
 
 fn scenes() -> Vec<&'static str> {
     let wanted = known().iter().filter(|scene| scene.small || scene.name == "molecule");
