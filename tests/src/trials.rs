@@ -13,6 +13,7 @@ mod peeling;
 mod specialisation;
 mod stability;
 mod twins;
+mod unchecked;
 
 use bench_scenes::{BenchScene, Overrides};
 use harness::canvas::Canvas;
@@ -43,6 +44,7 @@ pub fn all() -> Vec<Trial> {
     trials.extend(specialisation::trials());
     trials.extend(stability::trials());
     trials.extend(twins::trials());
+    trials.extend(unchecked::trials());
     trials
 }
 

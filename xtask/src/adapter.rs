@@ -1,6 +1,6 @@
 //! What pictures by an adapter need beyond Rust: one, real or in software.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::packages::install;
@@ -63,14 +63,24 @@ fn holds_a_manifest(folder: &str) -> bool {
 }
 
 fn loader_exists() -> bool {
+    loader().is_some()
+}
+
+/// Vulkan's loader, of this machine.
+pub(crate) fn loader() -> Option<PathBuf> {
     let listed = Command::new("ldconfig").arg("-p").output();
     match listed {
         Ok(output) if output.status.success() => {
-            String::from_utf8_lossy(&output.stdout).contains("libvulkan.so.1")
+            let text = String::from_utf8_lossy(&output.stdout);
+            let line = text.lines().find(|line| line.contains(LOADER))?;
+            Some(PathBuf::from(line.split("=> ").nth(1)?))
         }
         // Systems without glibc's cache.
         _ => ["/usr/lib", "/usr/lib64", "/usr/local/lib"]
             .into_iter()
-            .any(|folder| Path::new(folder).join("libvulkan.so.1").exists()),
+            .map(|folder| Path::new(folder).join(LOADER))
+            .find(|file| file.exists()),
     }
 }
+
+const LOADER: &str = "libvulkan.so.1";

@@ -5,6 +5,7 @@
 
 mod adapter;
 mod bench;
+mod device;
 mod display;
 mod packages;
 mod python;
@@ -20,6 +21,9 @@ cargo xtask python               of these the Python package alone: its wheel, p
 cargo xtask bench [...]          times the criterion benches, or those that a filter names;
                                  --against COMMIT builds that commit beside and times both in
                                  turn, --rounds N (5) times; samples go to out/bench/samples.csv
+cargo xtask device [...]         measures this machine's graphics processor in eight minutes; --pack
+                                 makes an archive that does so on another machine, out of the
+                                 program, its scenes and a script; --rehearse does it in small
 cargo xtask setup                makes sure that a Vulkan adapter exists, and does nothing else
 cargo xtask <command> [...]      sets up, then runs `metaball <command> [...]` in release mode:
                                  compare, score, diff, chart, stability, certify, render,
@@ -41,6 +45,7 @@ fn main() -> ExitCode {
         }
         Some("setup") => adapter::ensure().map(|_| ()),
         Some("bench") => bench::run(&arguments[1..]),
+        Some("device") => device::run(&arguments[1..]),
         Some("test") => test::run(&arguments[1..]),
         Some("python") => python::test(),
         Some("help" | "--help" | "-h") => {

@@ -13,7 +13,7 @@ pub mod tally;
 pub mod test_scene;
 
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
@@ -31,6 +31,8 @@ use harness::numbers::{grouped, small};
 pub struct Options {
     /// Different rays, at least.
     pub rays: u64,
+    /// Where it ends with fewer, after the scene at hand, and only wrong answers are errors; `None`: nowhere.
+    pub time: Option<Duration>,
     /// A few values of each stability case and few rays a scene.
     pub quick: bool,
     /// Where arbitrary scenes begin.
@@ -45,6 +47,11 @@ impl Options {
     /// Rays of an arbitrary scene.
     fn rays_of_scene(&self) -> usize {
         if self.quick { 1200 } else { 98_304 }
+    }
+
+    /// Whether the time is over after so many seconds.
+    fn is_over(&self, seconds: f64) -> bool {
+        self.time.is_some_and(|time| seconds >= time.as_secs_f64())
     }
 }
 
@@ -73,7 +80,10 @@ pub fn certify(options: &Options) -> anyhow::Result<()> {
     unfinished::remove(&unfinished_path);
     console::line(&summary(&certificate));
     console::line(&format!("\n{}", path.display()));
-    let shortfalls = certificate.shortfalls(options.rays);
+    let shortfalls = match options.is_over(certificate.seconds) {
+        true => certificate.wrong_answers(),
+        false => certificate.shortfalls(options.rays),
+    };
     anyhow::ensure!(shortfalls.is_empty(), "no certificate: {}", shortfalls.join("; "));
     Ok(())
 }
@@ -102,6 +112,9 @@ pub fn run(
         certificate.test_scenes += 1;
         progress.reach(certificate.rays.min(options.rays));
         let seconds = start.elapsed().as_secs_f64();
+        if options.is_over(certificate.seconds + seconds) {
+            break;
+        }
         if seconds > SECONDS_OF_GROUP {
             let wrong: u64 = certificate.counts.iter().map(|row| row.count.wrong).sum();
             let rays = grouped(certificate.rays as usize);
@@ -206,7 +219,15 @@ mod tests {
     use super::*;
 
     fn options(rays: u64) -> Options {
-        Options { rays, quick: true, seed: 1, adapter: None, out: PathBuf::from("unused") }
+        Options { rays, time: None, quick: true, seed: 1, adapter: None, out: "unused".into() }
+    }
+
+    #[test]
+    fn a_run_ends_with_its_time_and_is_a_certificate_of_what_it_did() {
+        let at_once = Options { time: Some(Duration::ZERO), ..options(12_000) };
+        let short = run(&at_once, None, Certificate::fresh(None), |_| Ok(())).expect("run");
+        assert_eq!(short.test_scenes, 1);
+        assert!(at_once.is_over(short.seconds) && !options(1).is_over(1e9));
     }
 
     /// The run stops anywhere: here after the cases, before the first arbitrary scene.

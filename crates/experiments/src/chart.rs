@@ -21,6 +21,7 @@ use metaball_core::gpu::{AdapterChoice, Gpu};
 use self::moved::moved;
 use self::plan::{Planned, Purpose, plan};
 use self::record::{Chart, Group, SCHEMA};
+use crate::compare::results;
 use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any};
 use crate::extent::Extent;
@@ -43,6 +44,10 @@ pub struct Options {
     pub extent: Extent,
     /// Scenes for error against time, instead of the extent's own.
     pub scenes: Vec<String>,
+    /// What is charted: purposes by [name](Purpose::name); all where there are none.
+    pub only: Vec<String>,
+    /// Timed frames of each method on each scene; `None`: five, or what fits into two seconds.
+    pub frames: Option<usize>,
     /// The methods that take part; all where there are none.
     pub methods: Vec<&'static Method>,
     /// Pixels across and down; where it is left open 640 × 480, on an adapter that computes on the
@@ -54,6 +59,12 @@ pub struct Options {
     pub out: PathBuf,
     /// Whether to begin anew where an interrupted run left its results.
     pub fresh: bool,
+}
+
+impl Options {
+    fn takes(&self, purpose: &Purpose) -> bool {
+        self.only.is_empty() || self.only.iter().any(|name| name == purpose.name())
+    }
 }
 
 /// Five frames, or what fits into two seconds.
@@ -71,7 +82,8 @@ const TIME_LIMIT_MS: f64 = 4_000.0;
 pub fn chart(options: &Options) -> anyhow::Result<()> {
     let names = ["chart.json", "chart.csv", "chart.html"];
     let [path, csv, page] = output_files(&options.out, names, &options.scenes, &[])?;
-    let plan = plan(options.extent, &options.scenes, &options.methods);
+    let mut plan = plan(options.extent, &options.scenes, &options.methods);
+    plan.retain(|planned| options.takes(&planned.purpose));
     let configurations = plan.iter().flat_map(|planned| &planned.configurations);
     let gpu = open_adapter_if_any(options.adapter.as_ref(), configurations)?;
     let gpu = gpu.as_ref();
@@ -94,7 +106,8 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
         }
         _ => {}
     }
-    chart.measure(gpu, &plan, &path)?;
+    let sampling = options.frames.map_or(FRAMES, Sampling::exactly);
+    chart.measure(gpu, &plan, sampling, &path)?;
     chart.complete = true;
     chart.moved = before.map(|before| moved(&before, &chart));
     chart.write(&path)?;
@@ -102,6 +115,10 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
     write_csv(&csv, records)?;
     write_atomically(&page, page::page(&chart).as_bytes())?;
 
+    if !options.only.is_empty() {
+        let records = chart.groups.iter().flat_map(|group| group.records.clone());
+        console::line(&results(&records.collect::<Vec<_>>()));
+    }
     for sentence in conclusions(&chart.error_records()) {
         console::line(&sentence);
     }
@@ -144,11 +161,17 @@ impl Chart {
     }
 
     /// Measures what is planned and not yet there, and writes the file after each scene.
-    fn measure(&mut self, gpu: Option<&Gpu>, plan: &[Planned], path: &Path) -> anyhow::Result<()> {
+    fn measure(
+        &mut self,
+        gpu: Option<&Gpu>,
+        plan: &[Planned],
+        sampling: Sampling,
+        path: &Path,
+    ) -> anyhow::Result<()> {
         let options = |planned: &Planned| comparison::Options {
             configurations: planned.configurations.clone(),
             size: (self.width, self.height),
-            sampling: FRAMES,
+            sampling,
             along_path: false,
             every_pixel: false,
             imported: Vec::new(),
@@ -285,6 +308,8 @@ mod tests {
         let options = Options {
             extent: Extent::Quick,
             scenes: vec!["two-merging".to_owned()],
+            only: Vec::new(),
+            frames: None,
             methods: Vec::new(),
             size: Some((32, 24)),
             adapter: Some(AdapterChoice::Environment),
@@ -300,13 +325,13 @@ mod tests {
                 .retain(|configuration| kept.contains(&configuration.to_string().as_str()));
         }
         let mut chart = Chart::begin(Some(&gpu), &options);
-        chart.measure(Some(&gpu), &plan[..1], &path).expect("measured");
+        chart.measure(Some(&gpu), &plan[..1], FRAMES, &path).expect("measured");
 
         // What is there is not measured again, and what is missing is.
         let mut resumed = Chart::read(&path).expect("readable").expect("written");
         assert!(resumed.is_like(&chart) && !resumed.complete);
         let done = resumed.groups.clone();
-        resumed.measure(Some(&gpu), &plan, &path).expect("measured");
+        resumed.measure(Some(&gpu), &plan, FRAMES, &path).expect("measured");
         assert_eq!((done.len(), resumed.groups.len()), (1, 2));
         assert_eq!(resumed.groups[0], done[0]);
         for group in &resumed.groups {
@@ -331,6 +356,8 @@ mod tests {
         let options = Options {
             extent: Extent::Quick,
             scenes: vec!["two-merging".to_owned()],
+            only: vec!["error".to_owned(), "density".to_owned()],
+            frames: Some(2),
             methods: ["fbvh", "fbvh-certified-cpu", "kanamori-cpu"].map(known).into(),
             size: Some((32, 24)),
             adapter: None,
@@ -341,6 +368,7 @@ mod tests {
         let chart = Chart::read(&folder.path().join("chart.json")).expect("readable");
         let chart = chart.expect("written");
         assert!(chart.complete && chart.groups.len() > 1);
+        assert!(chart.groups.iter().all(|group| group.purpose.name() != "growth"));
         assert_eq!(chart.adapter, Adapter::cpu());
         for record in chart.groups.iter().flat_map(|group| &group.records) {
             assert_eq!(record.measured.is_some(), record.method.ends_with("-cpu"), "{record:?}");
@@ -361,6 +389,8 @@ mod tests {
         let options = Options {
             extent: Extent::Quick,
             scenes: Vec::new(),
+            only: Vec::new(),
+            frames: None,
             methods: Vec::new(),
             size: Some((8, 6)),
             adapter: Some(AdapterChoice::Environment),

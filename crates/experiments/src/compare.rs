@@ -55,6 +55,7 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
     let gpu = open_adapter_if_any(options.adapter.as_ref(), &options.comparison.configurations)?;
     let gpu = gpu.as_ref();
 
+    let mut records = Records { provenance: Provenance::here(SCHEMA), records: Vec::new() };
     let mut scenes = Vec::new();
     let mut remarks: Vec<_> = cpu_remark(gpu).into_iter().collect();
     let progress = ProgressBar::new(steps(&options.comparison) * options.scenes.len() as u64);
@@ -69,7 +70,12 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
             })
             .with_context(|| format!("scene {spec}"));
         match scene {
-            Ok(scene) => scenes.push(scene),
+            Ok(scene) => {
+                // Of a run that is cut short this is left.
+                records.records.extend(scene.records.iter().cloned());
+                records.write(&json)?;
+                scenes.push(scene);
+            }
             Err(error) => {
                 let remark = format!("{error:#}");
                 progress.note(&remark);
@@ -80,10 +86,6 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
     }
     drop(progress);
 
-    let records = Records {
-        provenance: Provenance::here(SCHEMA),
-        records: scenes.iter().flat_map(|scene| scene.records.clone()).collect(),
-    };
     let worked =
         records.records.iter().any(|record| matches!(record.status, Status::Ok | Status::Scored));
     if worked {

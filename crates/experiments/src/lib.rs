@@ -6,6 +6,7 @@
 //! - [`mod@chart`]: error against time of every option; growth with the number and density of balls.
 //! - [`mod@stability`]: parameters of cases that are turned until methods fail.
 //! - [`mod@certify`]: the certified tree against the oracle, over many rays.
+//! - [`mod@device`]: all that a graphics processor is to be measured by, in minutes.
 //! - [`tables`]: what papers print, measured anew, and tables of this program's own.
 //!
 //! They share [`console`], which prints, and for pages [`html`], [`table`], [`plot`] and [`conclusions`].
@@ -15,9 +16,11 @@ pub mod chart;
 pub mod compare;
 pub mod conclusions;
 pub mod console;
+pub mod device;
 pub mod diff;
 pub mod extent;
 pub mod html;
+pub mod lit_twins;
 mod outputs;
 mod page;
 pub mod plot;

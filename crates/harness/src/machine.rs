@@ -62,9 +62,14 @@ impl Machine {
     }
 }
 
-/// The commit this program was built from, with `-dirty` when the tree had changes; `unknown`
-/// where the sources or git are gone.
+/// The commit this program was built from, with `-dirty` when the tree had changes: as the variable
+/// `METABALL_COMMIT` said when it was built, or else as git says now; `unknown` where the sources or git
+/// are gone.
 pub fn commit() -> String {
+    option_env!("METABALL_COMMIT").map_or_else(commit_of_sources, str::to_owned)
+}
+
+fn commit_of_sources() -> String {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
     Command::new("git")
         .args(["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"])

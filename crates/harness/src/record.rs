@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::Path;
 
 use metaball_core::Work;
-use metaball_core::gpu::{AdapterReport, Gpu};
+use metaball_core::gpu::{AdapterReport, Gpu, ShaderChecks};
 use serde::{Deserialize, Serialize};
 
 use crate::machine::{Machine, Provenance};
@@ -130,6 +130,9 @@ pub struct Adapter {
     /// What it computes on; missing where nothing was drawn, and in files of programs that did not say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub processor: Option<Processor>,
+    /// Whether its shaders check neither indices nor loops; missing where they do.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub unchecked_shaders: bool,
 }
 
 /// What computes a picture in the end.
@@ -152,13 +155,15 @@ impl Adapter {
             backend: "cpu".to_owned(),
             driver: format!("{} threads", rayon::current_num_threads()),
             processor: Some(Processor::Cpu),
+            unchecked_shaders: false,
         }
     }
 
     /// Where nothing was drawn.
     pub fn none() -> Self {
         let none = || "none".to_owned();
-        Self { name: none(), backend: none(), driver: none(), processor: None }
+        let (name, backend, driver) = (none(), none(), none());
+        Self { name, backend, driver, processor: None, unchecked_shaders: false }
     }
 
     /// The adapter, or where there is none the CPU.
@@ -191,6 +196,7 @@ impl From<&AdapterReport> for Adapter {
             backend: report.backend.clone(),
             driver: report.driver.clone(),
             processor: Some(processor),
+            unchecked_shaders: report.shader_checks == ShaderChecks::Off,
         }
     }
 }
@@ -198,13 +204,19 @@ impl From<&AdapterReport> for Adapter {
 impl fmt::Display for Adapter {
     /// With all that is known of it.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, backend, driver, processor } = self;
+        let Self { name, backend, driver, processor, unchecked_shaders } = self;
+        let checks = if *unchecked_shaders { ", shaders unchecked" } else { "" };
         match processor {
             Some(Processor::Cpu) => write!(formatter, "{name}, {driver}, no graphics interface"),
             Some(Processor::Software) => {
-                write!(formatter, "{name} ({backend}, {driver}), software: computes on the CPU")
+                write!(
+                    formatter,
+                    "{name} ({backend}, {driver}{checks}), software: computes on the CPU"
+                )
             }
-            Some(Processor::Gpu) | None => write!(formatter, "{name} ({backend}, {driver})"),
+            Some(Processor::Gpu) | None => {
+                write!(formatter, "{name} ({backend}, {driver}{checks})")
+            }
         }
     }
 }
@@ -334,6 +346,7 @@ mod tests {
                 backend: "vulkan".to_owned(),
                 driver: "mesa".to_owned(),
                 processor: Some(Processor::Software),
+                unchecked_shaders: false,
             },
             status,
             reason: reason.map(str::to_owned),
@@ -440,6 +453,9 @@ mod tests {
         let software = Adapter { processor: Some(Processor::Software), ..old };
         assert_eq!(software.short(), "CPU, software vulkan");
         assert!(software.to_string().ends_with("computes on the CPU"));
+        let unchecked = Adapter { unchecked_shaders: true, ..software };
+        assert!(unchecked.to_string().contains("mesa, shaders unchecked)"));
+        assert_eq!(json!(unchecked)["unchecked_shaders"], json!(true));
         let cpu = Adapter::of(None);
         assert_eq!((cpu.short().as_str(), cpu.processor), ("CPU", Some(Processor::Cpu)));
         assert!(cpu.to_string().contains("threads"), "{cpu}");

@@ -6,6 +6,7 @@
 mod camera;
 mod clip;
 mod convert;
+mod device;
 mod display;
 mod draw;
 mod formula;
@@ -34,6 +35,7 @@ pub use harness::renderer::Renderer;
 pub use harness::technique::{Own, Technique};
 
 use self::convert::ConvertArgs;
+use self::device::DeviceArgs;
 use self::draw::{AnimateArgs, RenderArgs};
 use self::measure::{CertifyArgs, ChartArgs, CompareArgs, DiffArgs, ScoreArgs, StabilityArgs};
 use self::tables::TablesCommand;
@@ -87,6 +89,13 @@ enum Command {
     Certify(CertifyArgs),
     /// Chart error against time over every method's knobs, and growth with count and density.
     Chart(ChartArgs),
+    /// Measure a graphics processor by all of these, in eight minutes: correctness first, then frame times by
+    /// scene, size, density and effect.
+    ///
+    /// Each part is a process of its own with a share of the time, so none ends another. After each, all that
+    /// is known so far is in device.json and summary.txt. Without an adapter they say what is missing, and the
+    /// CPU measures what it can.
+    Device(DeviceArgs),
     /// Write the particles of a file in another format: extended XYZ, CSV, NPY, PLY or VTP.
     Convert(ConvertArgs),
     /// List the known scenes and the generators.
@@ -165,6 +174,7 @@ fn obey(command: Command) -> anyhow::Result<()> {
         Command::Animate(animate) => animate.run(),
         #[cfg(feature = "viewer")]
         Command::View(view) => view.run(),
+        Command::Device(device) => device.run(),
         Command::Convert(convert) => convert.run(),
         Command::Tables { of } => of.run(),
         Command::Stability(stability) => stability.run(),

@@ -2,11 +2,13 @@
 //! `certify`.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use anyhow::ensure;
 use bench_scenes::{Case, load_as};
 use clap::Args;
 use experiments::certify::{self, certify};
+use experiments::chart::plan::Purpose;
 use experiments::chart::{self, chart};
 use experiments::compare::{self, DEFAULT_SCENES, compare};
 use experiments::console;
@@ -185,6 +187,12 @@ pub(crate) struct ChartArgs {
     /// Small scenes, small pictures: about a minute, to see that everything works.
     #[arg(long)]
     quick: bool,
+    /// Charts of this alone: error, growth or density; may be repeated.
+    #[arg(long, value_name = "PURPOSE", value_parser = Purpose::NAMES)]
+    only: Vec<String>,
+    /// Timed frames of each method on each scene; when left out five, or what fits in two seconds.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    frames: Option<u16>,
     /// Begin anew where an interrupted run left its results.
     #[arg(long)]
     fresh: bool,
@@ -203,9 +211,10 @@ pub(crate) struct ChartArgs {
 
 impl ChartArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { scenes, methods, quick, fresh, cpu, size, out, adapter } = self;
+        let Self { scenes, methods, quick, only, frames, fresh, cpu, size, out, adapter } = self;
         let (extent, adapter) = (extent(quick), (!cpu).then(|| adapter.choice()));
-        chart(&chart::Options { extent, scenes, methods, size, adapter, out, fresh })
+        let frames = frames.map(usize::from);
+        chart(&chart::Options { extent, scenes, only, frames, methods, size, adapter, out, fresh })
     }
 }
 
@@ -244,6 +253,9 @@ pub(crate) struct CertifyArgs {
     /// cores ten minutes with --cpu, and longer with an adapter.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     rays: Option<u64>,
+    /// End after so many seconds with fewer rays; then nothing but a wrong answer is an error.
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32))]
+    seconds: Option<u32>,
     /// A few values of each case, few rays a scene: seconds, to see that everything works.
     #[arg(long)]
     quick: bool,
@@ -262,10 +274,11 @@ pub(crate) struct CertifyArgs {
 
 impl CertifyArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { rays, quick, seed, cpu, out, adapter } = self;
+        let Self { rays, seconds, quick, seed, cpu, out, adapter } = self;
         let rays = rays.unwrap_or(if quick { 100_000 } else { 100_000_000 });
         let adapter = (!cpu).then(|| adapter.choice());
-        certify(&certify::Options { rays, quick, seed: seed.into(), adapter, out })
+        let time = seconds.map(|seconds| Duration::from_secs(seconds.into()));
+        certify(&certify::Options { rays, time, quick, seed: seed.into(), adapter, out })
     }
 }
 

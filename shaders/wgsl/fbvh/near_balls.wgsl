@@ -96,7 +96,7 @@ fn has_bits() -> bool {
     return SHORTEST <= length && length <= 32u * WORDS;
 }
 
-// The ball of the lowest bit of a word.
+// The ball of the lowest bit of a word; of none the word's first.
 fn ball_of(word: u32, bits: u32) -> u32 {
-    return lists[first + 32u * word + firstTrailingBit(bits)];
+    return lists[first + 32u * word + firstTrailingBit(max(bits, 1u))];
 }

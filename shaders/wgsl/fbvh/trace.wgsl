@@ -241,21 +241,24 @@ fn write(pixel: u32, ray: Ray) {
     let found = structure::leaves[best_leaf];
     let end = structure::leaves[best_leaf + 1u].first;
     var entry = found.first;
-    loop {
-        let ball = structure::lists[entry];
-        let support = support_of(ball);
-        let offset = offset_at(ray.origin - support.center, ray.direction, best_t);
-        let v = depth_below_rim(offset, support.radius);
-        slope += gradient(ball, v, offset, support.radius);
-        blend_add(ball, contribution(ball, v));
-        if needs_clearance() && v > 0.0 {
-            let moved = leaf::depth_error(found, ray, best_t, offset, support.radius);
-            error += strength(ball) * kernel_slope(v) * moved;
-            smallest = min(smallest, support.radius);
-        }
-        entry++;
-        if entry >= end {
-            break;
+    // A solid leaf has no list.
+    if entry < end {
+        loop {
+            let ball = structure::lists[entry];
+            let support = support_of(ball);
+            let offset = offset_at(ray.origin - support.center, ray.direction, best_t);
+            let v = depth_below_rim(offset, support.radius);
+            slope += gradient(ball, v, offset, support.radius);
+            blend_add(ball, contribution(ball, v));
+            if needs_clearance() && v > 0.0 {
+                let moved = leaf::depth_error(found, ray, best_t, offset, support.radius);
+                error += strength(ball) * kernel_slope(v) * moved;
+                smallest = min(smallest, support.radius);
+            }
+            entry++;
+            if entry >= end {
+                break;
+            }
         }
     }
     blend_write(pixel);

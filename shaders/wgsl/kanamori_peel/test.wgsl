@@ -179,5 +179,8 @@ fn four_from(k: u32) -> vec4<f32> {
 }
 
 fn ball_at(k: u32) -> f32 {
-    return select(0.0, f32(list::listed[k]), k < list::listed_count);
+    if k >= list::listed_count {
+        return 0.0;
+    }
+    return f32(list::listed[k]);
 }

@@ -20,7 +20,7 @@ pub(super) fn trials() -> Vec<Trial> {
 
 fn a_short_run(gpu: &Gpu) -> Result<(), Failed> {
     let out = PathBuf::new();
-    let options = Options { rays: RAYS, quick: true, seed: 1, adapter: None, out };
+    let options = Options { rays: RAYS, time: None, quick: true, seed: 1, adapter: None, out };
     let certificate = run(&options, Some(gpu), Certificate::fresh(Some(gpu)), |_| Ok(()))?;
     let shortfalls = certificate.shortfalls(RAYS);
     if !shortfalls.is_empty() {

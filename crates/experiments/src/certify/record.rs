@@ -183,11 +183,8 @@ impl Certificate {
             let needed = self.rays.div_ceil(NEAR_ONE_IN);
             shortfalls.push(format!("near tangency or a face: needed {needed} rays, found {near}"));
         }
+        shortfalls.extend(self.wrong_answers());
         for tracer in [Tracer::Cpu, Tracer::Adapter] {
-            let wrong = self.sum(tracer, |count| count.wrong);
-            if wrong > 0 {
-                shortfalls.push(format!("{tracer}: needed no wrong answer, found {wrong}"));
-            }
             let (undecided, rays) = self.undecided(tracer);
             let most = rays / UNDECIDED_ONE_IN;
             if undecided > most {
@@ -204,6 +201,15 @@ impl Certificate {
             }
         }
         shortfalls
+    }
+
+    /// Whose answers are wrong, in words; nothing where none are.
+    pub fn wrong_answers(&self) -> Vec<String> {
+        let of_tracer = |tracer: Tracer| {
+            let wrong = self.sum(tracer, |count| count.wrong);
+            (wrong > 0).then(|| format!("{tracer}: needed no wrong answer, found {wrong}"))
+        };
+        [Tracer::Cpu, Tracer::Adapter].into_iter().filter_map(of_tracer).collect()
     }
 
     /// Writes the file.

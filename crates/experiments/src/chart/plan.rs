@@ -21,6 +21,21 @@ pub enum Purpose {
     Density,
 }
 
+impl Purpose {
+    /// The names of all.
+    pub const NAMES: [&str; 3] = ["error", "growth", "density"];
+
+    /// Its name, whatever the generator.
+    pub fn name(&self) -> &'static str {
+        let [error, growth, density] = Self::NAMES;
+        match self {
+            Self::Error => error,
+            Self::Growth(_) => growth,
+            Self::Density => density,
+        }
+    }
+}
+
 /// A scene, and what to measure on it.
 #[derive(Debug, Clone)]
 pub struct Planned {

@@ -4,6 +4,8 @@ use std::fmt;
 
 use thiserror::Error;
 
+use super::shader_checks::ShaderChecks;
+
 /// Which adapter to draw with.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum AdapterChoice {
@@ -30,6 +32,14 @@ pub enum GpuError {
         choice: AdapterChoice,
         /// Names of the adapters there are.
         found: Vec<String>,
+    },
+    /// The environment names no [`ShaderChecks`].
+    #[error("{variable}: needed on or off, found {found}")]
+    ShaderChecks {
+        /// The variable.
+        variable: &'static str,
+        /// Its value.
+        found: String,
     },
     /// The adapter refused to open a device.
     #[error("adapter {adapter}: {reason}")]
@@ -81,6 +91,8 @@ pub struct AdapterReport {
     pub max_binding_bytes: u64,
     /// Storage buffers that one shader can see.
     pub max_storage_buffers: u32,
+    /// Whether shaders check their indices and loops.
+    pub shader_checks: ShaderChecks,
 }
 
 impl AdapterReport {
@@ -99,6 +111,7 @@ impl AdapterReport {
             max_buffer_bytes: limits.max_buffer_size,
             max_binding_bytes: limits.max_storage_buffer_binding_size,
             max_storage_buffers: limits.max_storage_buffers_per_shader_stage,
+            shader_checks: ShaderChecks::of_adapter(info.device_type),
         }
     }
 }
@@ -124,7 +137,9 @@ impl fmt::Display for AdapterReport {
             mebibytes(self.max_binding_bytes),
             self.max_storage_buffers
         )?;
-        write!(formatter, "timestamps  {}", if self.timestamps { "yes" } else { "no" })
+        writeln!(formatter, "timestamps  {}", if self.timestamps { "yes" } else { "no" })?;
+        let is_checked = self.shader_checks == ShaderChecks::On;
+        write!(formatter, "shaders     {}", if is_checked { "checked" } else { "unchecked" })
     }
 }
 

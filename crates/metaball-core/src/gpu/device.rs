@@ -8,6 +8,7 @@ use bytemuck::Pod;
 
 use super::adapter::{AdapterChoice, AdapterReport, GpuError, choose};
 use super::error::RenderError;
+use super::shader_checks::ShaderChecks;
 
 /// A device with its queue. Made once; everything else borrows it.
 ///
@@ -31,8 +32,10 @@ impl Gpu {
     /// of a pass.
     ///
     /// # Errors
-    /// When there is no such adapter; the text says what to install.
+    /// When there is no such adapter; the text says what to install. When `METABALL_SHADER_CHECKS` is
+    /// neither `on` nor `off`, by which [`ShaderChecks`] are other than the adapter's.
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        let checks = ShaderChecks::of_environment()?;
         let adapter = choose(choice)?;
         let info = adapter.get_info();
         let features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
@@ -56,7 +59,18 @@ impl Gpu {
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
                 GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() }
             })?;
-        Ok(Self::of_device(&adapter, device, queue))
+        let gpu = Self::of_device(&adapter, device, queue);
+        Ok(match checks {
+            Some(checks) => gpu.with_shader_checks(checks),
+            None => gpu,
+        })
+    }
+
+    /// The same, of whose shaders those made from now on check indices and loops, or do not.
+    #[must_use]
+    pub fn with_shader_checks(mut self, checks: ShaderChecks) -> Self {
+        self.report.shader_checks = checks;
+        self
     }
 
     /// As [`Gpu::new`]; `None` on a machine that has no adapter at all, unless one is asked for by name.

@@ -1,9 +1,8 @@
 //! From a scene to the pipelines that are specialised for it.
 
-use std::borrow::Cow;
-
 use metaball_shaders::{KernelModule, Module, Variant, code_size, compose, compose_module, naga};
 
+use super::shader_checks::{foreign_module, own_module};
 use super::{Gpu, RenderError};
 use crate::{Kernel, KernelForm, Scene};
 
@@ -155,10 +154,11 @@ impl Shader {
         module: &str,
         spec: &Specialization,
     ) -> Result<Self, RenderError> {
-        Self::of_composed(gpu, label, compose(module, &spec.variant())?)
+        Self::of_composed(gpu, label, compose(module, &spec.variant())?, own_module)
     }
 
-    /// Composes a module of the caller's, which may import those of `metaball-shaders`.
+    /// Composes a module of the caller's, which may import those of `metaball-shaders`. It is checked
+    /// whatever the device's [`ShaderChecks`](super::ShaderChecks).
     ///
     /// # Errors
     /// As [`Shader::new`].
@@ -167,18 +167,19 @@ impl Shader {
         module: &Module,
         spec: &Specialization,
     ) -> Result<Self, RenderError> {
-        Self::of_composed(gpu, module.name, compose_module(module, &spec.variant())?)
+        let composed = compose_module(module, &spec.variant())?;
+        Self::of_composed(gpu, module.name, composed, foreign_module)
     }
 
-    fn of_composed(gpu: &Gpu, label: &str, composed: naga::Module) -> Result<Self, RenderError> {
+    fn of_composed(
+        gpu: &Gpu,
+        label: &str,
+        composed: naga::Module,
+        make: impl FnOnce(&Gpu, &str, naga::Module) -> wgpu::ShaderModule,
+    ) -> Result<Self, RenderError> {
         let ids = override_ids(&composed);
         gpu.count_code(code_size(&composed));
-        let module = gpu.checked(|| {
-            gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Naga(Cow::Owned(composed)),
-            })
-        })?;
+        let module = gpu.checked(|| make(gpu, label, composed))?;
         Ok(Self { module, ids })
     }
 

@@ -1,12 +1,13 @@
 //! Secondary rays as the effects of real pictures make them.
 
+use experiments::lit_twins::floor_below;
 use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
 use metaball_core::reference::Oracle;
 use metaball_core::{Camera, Metaball, NO_LIMIT, Scene, Verdict, View};
 use metaball_light::gpu::PathTracer;
-use metaball_light::{Effects, Floor, Lamp, Occlusion, Surface};
+use metaball_light::{Effects, Lamp, Occlusion, Surface};
 
 use super::CERTIFIED;
 use super::answers::{Answered, answers};
@@ -91,18 +92,6 @@ pub(super) fn last_rays(
         Effect::Reflection { .. } | Effect::Refraction { .. } => {
             answers(gpu, tracer.last_path_rays())
         }
-    }
-}
-
-/// Tiles at the lowest point of all supports.
-pub(super) fn floor_below(scene: &Scene) -> Floor {
-    let bounds = scene.bounds();
-    let diagonal = bounds.extent().length();
-    Floor {
-        middle: bounds.center().with_y(bounds.min.y),
-        reach: 3.0 * diagonal,
-        color: Vec3::splat(0.5),
-        tile: 0.3 * diagonal,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Pictures of the path tracer: the same from the same seed, from any method as far as primary rays go, and
 //! refused beyond.
 
+use experiments::lit_twins::floor_below;
 use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
 use metaball_core::gpu::Gpu;
@@ -8,7 +9,6 @@ use metaball_light::gpu::PathTracer;
 use metaball_light::{Effects, Environment, Surface};
 
 use super::CERTIFIED;
-use super::effects::floor_below;
 use crate::trials::{load, on_adapter, on_gpu, view_of};
 
 pub(super) fn trials() -> Vec<Trial> {
