@@ -22,6 +22,7 @@ use self::tally::{Category, Count, ErrorClass, Tracer};
 use self::test_scene::{TestScene, test_scenes};
 use crate::console::{self, ProgressBar, open_adapter, table};
 use crate::outputs::output_files;
+use crate::shortfall::Shortfall;
 use crate::unfinished;
 use harness::numbers::{grouped, small};
 
@@ -73,7 +74,9 @@ pub fn certify(options: &Options) -> anyhow::Result<()> {
     console::line(&summary(&certificate));
     console::line(&format!("\n{}", path.display()));
     let shortfalls = certificate.shortfalls(options.rays);
-    anyhow::ensure!(shortfalls.is_empty(), "no certificate: {}", shortfalls.join("; "));
+    if !shortfalls.is_empty() {
+        return Err(Shortfall(format!("no certificate: {}", shortfalls.join("; "))).into());
+    }
     Ok(())
 }
 

@@ -8,7 +8,8 @@
 //! - [`mod@certify`]: the certified tree against the oracle, over many rays.
 //! - [`tables`]: what papers print, measured anew, and tables of this program's own.
 //!
-//! They share [`console`], which prints, and for pages [`html`], [`table`], [`plot`] and [`conclusions`].
+//! A run that does not show what it was asked for ends in a [`shortfall`]. They share [`console`], which prints,
+//! and for pages [`html`], [`table`], [`plot`] and [`conclusions`].
 
 pub mod certify;
 pub mod chart;
@@ -22,6 +23,7 @@ mod outputs;
 mod page;
 pub mod plot;
 pub mod score;
+pub mod shortfall;
 pub mod stability;
 pub mod table;
 pub mod tables;
