@@ -2,6 +2,8 @@
 
 mod scenes;
 
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
 use fbvh::{
     Boxes, BuildError, Classes, Cost, EMPTY, Fitting, Flaw, Kind, MAX_DEPTH, Options, Structure,
     Tree,
@@ -88,6 +90,26 @@ fn the_number_of_threads_does_not_matter() {
         assert!(trees[0].nodes().len() > 1000, "{:?} is too small to fork", options.kind());
         assert_eq!(trees[0], trees[1]);
         assert_eq!(trees[0], trees[2]);
+    }
+}
+
+#[test]
+fn a_tree_that_is_not_wanted_any_more_is_given_up() {
+    let scene = clumps();
+    for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
+        let asked = AtomicUsize::new(0);
+        let build = |limit| {
+            asked.store(0, Relaxed);
+            Tree::build_while(&scene, &options, || asked.fetch_add(1, Relaxed) < limit)
+        };
+        let whole = Tree::build(&scene, &options).expect("legal options");
+        assert_eq!(build(usize::MAX).expect("wanted"), whole);
+        let all = asked.load(Relaxed);
+        assert!(all > whole.nodes().len(), "asked {all} times");
+        for limit in [0, 1, all / 2, all - 1] {
+            assert_eq!(build(limit), Err(BuildError::BrokenOff));
+            assert!(asked.load(Relaxed) <= limit + rayon::current_num_threads(), "asked on");
+        }
     }
 }
 

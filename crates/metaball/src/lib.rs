@@ -50,6 +50,7 @@ mod emptiness;
 mod error;
 mod files;
 mod inputs;
+mod interruptible;
 mod legend;
 mod light;
 mod method;
