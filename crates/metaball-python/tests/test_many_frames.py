@@ -29,7 +29,7 @@ def script(name: str) -> ModuleType:
 def test_workers_of_dask_are_killed_and_no_frame_is_lost(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     psutil = pytest.importorskip("psutil")
-    command = [sys.executable, GALLERY / "dask_frames.py", tmp_path]
+    command = [sys.executable, str(GALLERY / "dask_frames.py"), str(tmp_path)]
     running = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )

@@ -89,9 +89,9 @@ def test_a_table_is_taken_as_its_file_is(tmp_path: Path) -> None:
     rows = np.column_stack(list(columns.values()))
     np.savetxt(file, rows, fmt="%.17g", delimiter=",", header=",".join(columns), comments="")
     for options in ({"sph": True}, {"preset": "splashsurf", "radius": 0.05}):
-        table, read = Surface.of(columns, **options), Surface.read(file, **options)  # type: ignore[arg-type]
-        pictures = [of.render(size=(40, 30)).pixels for of in (table, read)]
-        assert np.array_equal(*pictures) and repr(table) == repr(read)
+        table, read = Surface.of(columns, **options), Surface.read(file, **options)
+        found, wanted = (of.render(size=(40, 30)).pixels for of in (table, read))
+        assert np.array_equal(found, wanted) and repr(table) == repr(read)
 
 
 def test_presets_are_other_programs_surfaces(tmp_path: Path) -> None:
