@@ -23,6 +23,7 @@ use self::tally::{Category, Count, ErrorClass, Tracer};
 use self::test_scene::{TestScene, test_scenes};
 use crate::console::{self, ProgressBar, open_adapter, table};
 use crate::outputs::output_files;
+use crate::shortfall::Shortfall;
 use crate::unfinished;
 use harness::numbers::{grouped, small};
 
@@ -84,7 +85,9 @@ pub fn certify(options: &Options) -> anyhow::Result<()> {
         true => certificate.wrong_answers(),
         false => certificate.shortfalls(options.rays),
     };
-    anyhow::ensure!(shortfalls.is_empty(), "no certificate: {}", shortfalls.join("; "));
+    if !shortfalls.is_empty() {
+        return Err(Shortfall(format!("no certificate: {}", shortfalls.join("; "))).into());
+    }
     Ok(())
 }
 

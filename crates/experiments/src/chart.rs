@@ -27,6 +27,7 @@ use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any};
 use crate::extent::Extent;
 use crate::outputs::output_files;
 use crate::page::cpu_remark;
+use crate::shortfall::nothing_done;
 use harness::comparison::{self, compare_scene, steps};
 use harness::configuration::Configuration;
 use harness::machine::Provenance;
@@ -127,11 +128,12 @@ pub fn chart(options: &Options) -> anyhow::Result<()> {
     }
     note_reasons(chart.groups.iter().flat_map(|group| &group.records));
     console::line(&format!("\n{}", page.display()));
-    let worked = chart.groups.iter().flat_map(|group| &group.records);
-    anyhow::ensure!(
-        worked.into_iter().any(|record| record.status == Status::Ok),
-        "nothing could be measured; the reasons are above"
-    );
+    let mut records = chart.groups.iter().flat_map(|group| &group.records);
+    if !records.any(|record| record.status == Status::Ok) {
+        let said = "nothing could be measured; the reasons are above";
+        let configurations = plan.iter().flat_map(|planned| &planned.configurations);
+        return Err(nothing_done(said, (options.adapter.as_ref(), gpu), configurations));
+    }
     Ok(())
 }
 

@@ -12,6 +12,7 @@ use crate::conclusions::conclusions;
 use crate::console::{self, ProgressBar, note_reasons, open_adapter_if_any, table};
 use crate::outputs::output_files;
 use crate::page::cpu_remark;
+use crate::shortfall::nothing_done;
 use harness::comparison::{self, compare_scene, steps};
 use harness::machine::Provenance;
 use harness::numbers::{decimal, grouped, small};
@@ -105,7 +106,11 @@ pub fn compare(options: &Options) -> anyhow::Result<()> {
     write_csv(&csv, &records.records)?;
     write_atomically(&page, page::page(&records, &scenes, &remarks).as_bytes())?;
     console::line(&format!("\n{}", page.display()));
-    anyhow::ensure!(worked, "nothing could be compared; the reasons are above");
+    if !worked {
+        let said = "nothing could be compared; the reasons are above";
+        let configurations = &options.comparison.configurations;
+        return Err(nothing_done(said, (options.adapter.as_ref(), gpu), configurations));
+    }
     Ok(())
 }
 

@@ -132,6 +132,12 @@ impl ProgressBar {
         }
     }
 
+    /// One more step is done: how many are, of how many.
+    pub fn step(&self) -> (u64, u64) {
+        self.advance(1);
+        (self.bar.position(), self.bar.length().unwrap_or(0))
+    }
+
     /// So many steps are done.
     pub fn advance(&self, steps: u64) {
         self.bar.inc(steps);

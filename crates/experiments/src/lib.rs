@@ -9,7 +9,8 @@
 //! - [`mod@device`]: all that a graphics processor is to be measured by, in minutes.
 //! - [`tables`]: what papers print, measured anew, and tables of this program's own.
 //!
-//! They share [`console`], which prints, and for pages [`html`], [`table`], [`plot`] and [`conclusions`].
+//! A run that does not show what it was asked for ends in a [`shortfall`]. They share [`console`], which prints,
+//! and for pages [`html`], [`table`], [`plot`] and [`conclusions`].
 
 pub mod certify;
 pub mod chart;
@@ -25,6 +26,7 @@ mod outputs;
 mod page;
 pub mod plot;
 pub mod score;
+pub mod shortfall;
 pub mod stability;
 pub mod table;
 pub mod tables;

@@ -11,7 +11,6 @@ mod skipping;
 
 use std::path::PathBuf;
 
-use anyhow::ensure;
 use bench_scenes::{Case, cases};
 use metaball_core::gpu::{AdapterChoice, Gpu};
 
@@ -22,6 +21,7 @@ use self::record::{Limit, SCHEMA, Stability};
 use self::skipping::reason_to_skip;
 use crate::console::{self, ProgressBar, open_adapter_if_any, table};
 use crate::outputs::output_files;
+use crate::shortfall::nothing_done;
 use crate::unfinished;
 use harness::configuration::Configuration;
 use harness::configuration::variants::stability_configurations;
@@ -63,7 +63,10 @@ pub fn stability(options: &Options) -> anyhow::Result<()> {
     let gpu = gpu.as_ref();
     let (methods, left_out): (Vec<_>, Vec<_>) =
         methods.into_iter().partition(|method| gpu.is_some() || !method.needs_adapter());
-    ensure!(!methods.is_empty(), "needed a graphics adapter for all of these methods, found none");
+    if methods.is_empty() {
+        let said = "stability: needed a method that runs here, found none";
+        return Err(nothing_done(said, (options.adapter.as_ref(), gpu), &left_out));
+    }
 
     let mut stability = Stability {
         provenance: Provenance::here(SCHEMA),

@@ -15,6 +15,8 @@ mod part;
 mod plane;
 mod pool;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use metaball_core::{Aabb, Kernel, Metaball, NegativeBall, SceneError, check_ball, check_field};
 use rayon::prelude::*;
 
@@ -41,9 +43,21 @@ impl Tree {
     /// the same bit for bit whatever the number of threads.
     ///
     /// # Errors
-    /// [`BuildError`]: names the ball that is not legal or not in such a tree, the option that is out of range, or how many
-    /// list entries were too many.
+    /// [`BuildError`]: names the ball that is not legal or not in such a tree, the option that is out of range, or
+    /// how many list entries were too many.
     pub fn build(field: &impl Field, options: &Options) -> Result<Self, BuildError> {
+        Self::build_while(field, options, || true)
+    }
+
+    /// The same as long as `goes_on` says so. It is asked at every node, on any thread.
+    ///
+    /// # Errors
+    /// As [`build`](Tree::build), and [`BuildError::BrokenOff`].
+    pub fn build_while(
+        field: &impl Field,
+        options: &Options,
+        goes_on: impl Fn() -> bool + Sync,
+    ) -> Result<Self, BuildError> {
         if !(2..=MAX_BINS as u32).contains(&options.bins) {
             return Err(BuildError::Bins { found: options.bins });
         }
@@ -63,9 +77,14 @@ impl Tree {
             has_negative,
             options: *options,
             grown: GrownPieces::default(),
+            goes_on: &goes_on,
+            broken_off: AtomicBool::new(false),
         };
         let mut branch = Branch::new();
         let root = if balls.is_empty() { None } else { builder.root(balls, &mut branch) };
+        if builder.broken_off.into_inner() {
+            return Err(BuildError::BrokenOff);
+        }
         branch.finish(root, options.kind())
     }
 }
@@ -100,7 +119,7 @@ fn greatest_strength(balls: &[Ball]) -> f32 {
 }
 
 /// What the divisions of all nodes share. Lists hold negative balls before the others.
-struct Builder {
+struct Builder<'a> {
     kernel: Kernel,
     threshold: f32,
     max_depth: usize,
@@ -114,6 +133,8 @@ struct Builder {
     has_negative: bool,
     options: Options,
     grown: GrownPieces,
+    goes_on: &'a (dyn Fn() -> bool + Sync),
+    broken_off: AtomicBool,
 }
 
 impl Options {
@@ -131,7 +152,7 @@ impl Options {
     }
 }
 
-impl Builder {
+impl Builder<'_> {
     /// Those of a list that take away from the field, and those that add to it.
     fn by_sign<'b>(&self, list: &'b [Ball]) -> (&'b [Ball], &'b [Ball]) {
         let negative = if self.has_negative { list.partition_point(Ball::is_negative) } else { 0 };
@@ -169,6 +190,9 @@ impl Builder {
     ) -> Option<(u32, Aabb)> {
         let height = pool.top();
         let subtree = loop {
+            if self.is_broken_off() {
+                break None;
+            }
             let division = match self.options.structure {
                 Structure::ModifiedBvh => self.divide_modified(own, pool, &part),
                 Structure::Fitted(fitting) => self.divide_fitted(&fitting, pool, &part),
@@ -187,6 +211,14 @@ impl Builder {
         };
         pool.truncate(height);
         subtree
+    }
+
+    /// Whether the tree is not wanted any more: then all parts are nothing.
+    fn is_broken_off(&self) -> bool {
+        if !self.broken_off.load(Ordering::Relaxed) && !(self.goes_on)() {
+            self.broken_off.store(true, Ordering::Relaxed);
+        }
+        self.broken_off.load(Ordering::Relaxed)
     }
 
     /// Builds both parts of a node, on two threads if that is worth it, and joins them.

@@ -2,6 +2,8 @@
 
 mod scenes;
 
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
 use fbvh::{
     Boxes, BuildError, Classes, Cost, EMPTY, Fitting, Flaw, Kind, MAX_DEPTH, Options, Structure,
     Tree,
@@ -111,6 +113,26 @@ fn a_negative_ball_elsewhere_changes_nothing() {
     let build = |scene: &Scene| Tree::build(scene, &Options::certified()).expect("legal options");
     assert!(build(&scene) == build(&with(Vec3::splat(-20.0))));
     assert!(build(&scene) != build(&with(Vec3::splat(3.5))), "a canary among the balls");
+}
+
+#[test]
+fn a_tree_that_is_not_wanted_any_more_is_given_up() {
+    let scene = clumps();
+    for options in [Options::modified_bvh(), Options::fitted(), Options::certified()] {
+        let asked = AtomicUsize::new(0);
+        let build = |limit| {
+            asked.store(0, Relaxed);
+            Tree::build_while(&scene, &options, || asked.fetch_add(1, Relaxed) < limit)
+        };
+        let whole = Tree::build(&scene, &options).expect("legal options");
+        assert_eq!(build(usize::MAX).expect("wanted"), whole);
+        let all = asked.load(Relaxed);
+        assert!(all > whole.nodes().len(), "asked {all} times");
+        for limit in [0, 1, all / 2, all - 1] {
+            assert_eq!(build(limit), Err(BuildError::BrokenOff));
+            assert!(asked.load(Relaxed) <= limit + rayon::current_num_threads(), "asked on");
+        }
+    }
 }
 
 #[test]

@@ -14,13 +14,14 @@ use harness::methods::find;
 use harness::numbers::{decimal, grouped};
 use metaball::{
     AnimateOptions, AnimatedScene, AnimationEvent, AnimationReport, Backend, Choosing, DrawOptions,
-    Emptiness, Error, FrameOutcome, Method, NumberedPath, Outputs, Overrides, Progress,
-    ReadOptions, Stage, Summary, Tally, animate, draw_to_files,
+    Emptiness, Error, FrameOutcome, FrameReport, Keep, Method, NumberedPath, Outputs, Overrides,
+    Progress, ReadOptions, Stage, Summary, Tally, animate, draw_to_files,
 };
 use metaball_core::{Color, Picture, Scene};
 
 use crate::camera::{self, CameraArgs};
 use crate::clip::ClipArgs;
+use crate::ending::Trouble;
 use crate::light::LightArgs;
 use crate::names::{AUTO, DEFAULT_METHOD, drawer_parser};
 use crate::picture::{color_of, picture_named};
@@ -221,6 +222,11 @@ pub(crate) struct AnimateArgs {
     /// Write a picture of all these frames side by side too: .png, .jpg or .jpeg.
     #[arg(long, value_name = "FILE")]
     sheet: Option<PathBuf>,
+    /// Leave every frame that is there, a whole picture of this size, whatever it was drawn with. Without
+    /// this, frames that were not drawn with these options, by this version, on the same kind of device are
+    /// drawn anew.
+    #[arg(long, conflicts_with = "force")]
+    skip_existing: bool,
     /// Draw all frames, those that are there too.
     #[arg(long)]
     force: bool,
@@ -231,7 +237,8 @@ pub(crate) struct AnimateArgs {
 
 impl AnimateArgs {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let Self { drawing, frames, every, out, sheet, force, in_turn } = self;
+        let keep = self.keep();
+        let Self { drawing, frames, every, out, sheet, in_turn, .. } = self;
         ensure!(
             drawing.method.as_deref() != Some(AUTO),
             "auto chooses for one picture: for frames name a method"
@@ -244,7 +251,7 @@ impl AnimateArgs {
             draw.clip = draw.clip.and(&cell.region()?);
         }
         let inputs = inputs(&scene).into_iter().chain(reading.topology.clone()).collect();
-        let options = AnimateOptions { draw, frames, every, out, sheet, force, in_turn, inputs };
+        let options = AnimateOptions { draw, frames, every, out, sheet, keep, in_turn, inputs };
         let mut progress = None;
         let (report, path) = animate(&moving, &options, |event| match event {
             AnimationEvent::Begins { missing, kept, absent } => {
@@ -259,9 +266,10 @@ impl AnimateArgs {
             }
             AnimationEvent::Done(frame) => {
                 if let Some(progress) = &progress {
-                    progress.advance(1);
-                    let outcome = outcome_text(&frame.outcome);
-                    progress.stage(format!("frame {}: {outcome}", frame.number));
+                    let (done, all) = progress.step();
+                    let FrameReport { number, outcome } = frame;
+                    let outcome = outcome_text(outcome);
+                    progress.stage(format!("{done} of {all}: frame {number} {outcome}"));
                 }
             }
             _ => {}
@@ -288,8 +296,20 @@ impl AnimateArgs {
                 "--frames {start}..{end}: needed frames that are there, found none for {absent}"
             ));
         }
-        ensure!(faults.is_empty(), "{}", faults.join("; "));
+        let faults = faults.join("; ");
+        if report.is_trouble() {
+            return Err(Trouble(faults).into());
+        }
+        ensure!(faults.is_empty(), "{faults}");
         Ok(())
+    }
+
+    fn keep(&self) -> Keep {
+        match (self.force, self.skip_existing) {
+            (true, _) => Keep::Nothing,
+            (false, true) => Keep::Complete,
+            (false, false) => Keep::Same,
+        }
     }
 }
 

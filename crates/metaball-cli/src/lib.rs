@@ -9,6 +9,7 @@ mod convert;
 mod device;
 mod display;
 mod draw;
+mod ending;
 mod formula;
 mod light;
 mod list;
@@ -37,6 +38,7 @@ pub use harness::technique::{Own, Technique};
 use self::convert::ConvertArgs;
 use self::device::DeviceArgs;
 use self::draw::{AnimateArgs, RenderArgs};
+use self::ending::{CODES, Ending};
 use self::measure::{CertifyArgs, ChartArgs, CompareArgs, DiffArgs, ScoreArgs, StabilityArgs};
 use self::tables::TablesCommand;
 #[cfg(feature = "viewer")]
@@ -44,7 +46,7 @@ use self::view::ViewArgs;
 
 /// Ray casters of metaball isosurfaces on the GPU, compared with an exact reference.
 #[derive(Debug, Parser)]
-#[command(version)]
+#[command(version, after_help = CODES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -67,7 +69,8 @@ enum Command {
     /// Draw the frames of a moving scene, and report how long building and drawing took.
     ///
     /// Frames that are there already, whole and drawn with these options, are not drawn again, so an
-    /// interrupted run is continued, and the range can be split among machines.
+    /// interrupted run is continued, and the range can be split among machines: docs/many-frames.md.
+    #[command(after_help = CODES)]
     Animate(Box<AnimateArgs>),
     /// Open a window: turn the surface, light it, cut it, and ask what a point of it is made of.
     #[cfg(feature = "viewer")]
@@ -156,13 +159,10 @@ pub fn run_with(own: impl IntoIterator<Item = Method>) -> ExitCode {
         }
         obey(command)
     });
-    match obeyed {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            console::note(&format!("metaball: {error:#}"));
-            ExitCode::FAILURE
-        }
+    if let Err(error) = &obeyed {
+        console::note(&format!("metaball: {error:#}"));
     }
+    Ending::of(&obeyed).into()
 }
 
 fn obey(command: Command) -> anyhow::Result<()> {

@@ -130,6 +130,31 @@ impl Camera {
         })
     }
 
+    /// The camera whose parts these are, bit for bit: [`eye`](Self::eye), the axes [`right`](Self::right),
+    /// [`up`](Self::up) and [`forward`](Self::forward), and [`half_height`](Self::half_height).
+    ///
+    /// # Errors
+    /// Names what no camera has.
+    pub fn of_parts(eye: Vec3, axes: [Vec3; 3], half_height: f32) -> Result<Self, CameraError> {
+        /// Of what is 0 or 1 between unit vectors at right angles, in f32.
+        const ROUNDING: f32 = 1e-5;
+        let [right, up, forward] = axes;
+        let products = [right.length_squared() - 1.0, up.length_squared() - 1.0, up.dot(right)];
+        let is_framed = products.iter().all(|product| product.abs() <= ROUNDING)
+            && right.cross(up).distance(-forward) <= ROUNDING;
+        if !eye.is_finite() {
+            return Err(CameraError::NotFinite { name: "eye", found: eye });
+        }
+        if !is_framed {
+            return Err(CameraError::Up { found: up });
+        }
+        if !(half_height > 0.0 && half_height.is_finite()) {
+            let found = 2.0 * half_height.atan().to_degrees();
+            return Err(CameraError::FieldOfView { found });
+        }
+        Ok(Self { eye, right, up, forward, half_height })
+    }
+
     /// Where all primary rays start, world space, scene units.
     pub fn eye(&self) -> Vec3 {
         self.eye
@@ -369,6 +394,18 @@ mod tests {
         assert_abs_diff_eq!(camera.right().cross(camera.up()), -wanted, epsilon = 1e-6);
         assert_abs_diff_eq!(camera.right().dot(camera.up()), 0.0, epsilon = 1e-6);
         assert!(camera.right().y.abs() < 1e-6 && camera.up().y > 0.9);
+    }
+
+    #[test]
+    fn its_parts_make_a_camera_again() {
+        let camera = camera().turned(0.3, -0.2);
+        let axes = [camera.right(), camera.up(), camera.forward()];
+        let again = |axes, height| Camera::of_parts(camera.eye(), axes, height);
+        assert_eq!(again(axes, camera.half_height()), Ok(camera));
+        let mirrored = [-axes[0], axes[1], axes[2]];
+        assert!(matches!(again(mirrored, 1.0), Err(CameraError::Up { .. })));
+        assert!(matches!(again([Vec3::NAN; 3], 1.0), Err(CameraError::Up { .. })));
+        assert!(matches!(again(axes, 0.0), Err(CameraError::FieldOfView { .. })));
     }
 
     #[test]

@@ -27,16 +27,10 @@ def main(folder: Path) -> None:
     simulate(folder / "frame.h5")
     with h5py.File(folder / "frame.h5") as file:
         gas = file["PartType0"]
-        h = gas["SmoothingLength"][:]
-        particles = metaball.Particles(
-            gas["Coordinates"][:],
-            support_radius=2 * h,
-            # Our kernels are 1 in the middle, where the cubic spline of SPH is 1/(π h³).
-            strength=gas["Masses"][:] / gas["Density"][:] / (np.pi * h**3),
-            color=(0.3, 0.55, 0.9),
-        )
-    # The field is 1 inside, and 1/2 where the fluid ends.
-    surface = metaball.Surface(particles, kernel="cubic-spline", threshold=0.5)
+        columns = dict(zip("xyz", gas["Coordinates"][:].T, strict=True))
+        columns |= {"mass": gas["Masses"][:], "density": gas["Density"][:], "h": gas["SmoothingLength"][:]}
+    # The field is 1 inside, and the surface where it is 1/2: where the fluid ends.
+    surface = metaball.Surface.of(columns, sph=True)
     print("in the pool:", surface.field([0.0, -0.8, 0.0]))
     surface.render(size=(320, 240), shadows=True, samples=2).save(folder / "sph.png")
 

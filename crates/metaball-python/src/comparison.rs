@@ -1,7 +1,5 @@
 //! Hits of anyone, held against the reference.
 
-use std::ops::ControlFlow;
-
 use metaball_core::Hit;
 use metaball_core::reference::{Oracle, Truth};
 use numpy::PyArray1;
@@ -12,6 +10,7 @@ use scoring::{Accuracy, Finding, Judgement, score};
 
 use crate::rays::{Rays, each_batch};
 use crate::reading::rows;
+use crate::watch::Watched;
 
 /// The truth along rays: t and normals, verdicts, and how clear these are.
 pub(crate) type TruthArrays<'py> = (
@@ -35,11 +34,11 @@ pub(crate) type ComparisonArrays<'py> = (
 pub(crate) fn truths(
     oracle: &Oracle<'_>,
     rays: &Rays<'_>,
-    goes_on: impl FnMut(usize) -> ControlFlow<()>,
+    watched: &Watched<'_>,
 ) -> PyResult<Vec<Truth>> {
     let mut truths = Vec::with_capacity(rays.count());
     let answer = |rays: &[_]| truths.append(&mut oracle.first_hits(rays));
-    each_batch(rays, answer, goes_on)?;
+    each_batch(rays, answer, watched)?;
     Ok(truths)
 }
 

@@ -1,7 +1,5 @@
 //! Rays from arrays, and what they meet as arrays.
 
-use std::ops::ControlFlow;
-
 use glam::{DVec3, Vec3};
 use metaball_core::{Hit, HostTracer, NO_LIMIT, Ray, RayQuery, SurfaceHit, Verdict};
 use numpy::ndarray::Array2;
@@ -12,9 +10,13 @@ use rayon::prelude::*;
 
 use crate::arrays::{NumberArray, Numbers, PointArray, Points, Rows};
 use crate::errors::refused;
+use crate::watch::Watched;
 
 /// Rays that are made and traced together: enough for all threads, few enough to stay near.
-pub(crate) const TOGETHER: usize = 1 << 17;
+const TOGETHER: usize = 1 << 17;
+
+/// Rays that are made for the reference, which takes thousands of times as long for each.
+const FEW_TOGETHER: usize = 1 << 12;
 
 /// The arrays of rays: origins, directions, least and greatest t; all but the directions one for all, or one for
 /// each.
@@ -206,30 +208,31 @@ impl Columns {
     }
 }
 
-/// Makes all rays, some at a time: `answer` gets them in order, and `goes_on` how many are done.
+/// Makes all rays, a few at a time, as long as they are wanted: `answer` gets them in order.
 pub(crate) fn each_batch(
     rays: &Rays<'_>,
     mut answer: impl FnMut(&[Ray]),
-    mut goes_on: impl FnMut(usize) -> ControlFlow<()>,
+    watched: &Watched<'_>,
 ) -> PyResult<()> {
     let mut together = Vec::new();
-    for first in (0..rays.count()).step_by(TOGETHER) {
-        rays.make(first, TOGETHER.min(rays.count() - first), &mut together)?;
-        answer(&together);
-        if goes_on(first + together.len()).is_break() {
+    for first in (0..rays.count()).step_by(FEW_TOGETHER) {
+        if !watched.goes_on() {
             break;
         }
+        rays.make(first, FEW_TOGETHER.min(rays.count() - first), &mut together)?;
+        answer(&together);
+        watched.is_at(first + together.len());
     }
     Ok(())
 }
 
-/// What rays meet. They are made, traced and written down in runs that stay in a thread's caches; `goes_on` gets
-/// how many are done.
+/// What rays meet, as long as it is wanted. They are made, traced and written down in runs that stay in a thread's
+/// caches.
 pub(crate) fn traced<T: HostTracer>(
     rays: &Rays<'_>,
     tracer: &T,
     query: RayQuery,
-    mut goes_on: impl FnMut(usize) -> ControlFlow<()>,
+    watched: &Watched<'_>,
 ) -> PyResult<Columns> {
     /// A multiple of a packet.
     const RUN: usize = 256;
@@ -242,6 +245,9 @@ pub(crate) fn traced<T: HostTracer>(
         let runs = runs.zip(verdicts[first..end].par_chunks_mut(RUN)).enumerate();
         let refused = runs
             .map_init(scratch, |(scratch, made, found), (run, ((t, normals), verdicts))| {
+                if !watched.goes_on() {
+                    return Ok(());
+                }
                 rays.make(first + run * RUN, t.len(), made)?;
                 found.resize(made.len(), SurfaceHit::MISS);
                 tracer.answer(query, made, scratch, found);
@@ -254,9 +260,7 @@ pub(crate) fn traced<T: HostTracer>(
             })
             .find_first(Result::is_err);
         refused.unwrap_or(Ok(()))?;
-        if goes_on(end).is_break() {
-            break;
-        }
+        watched.is_at(end);
     }
     Ok(columns)
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::DVec3;
-use metaball::{Cell, ReadOptions, Rule, Selection, Unit};
+use metaball::{Cell, FormulaOptions, Notes, Overrides, ReadOptions, Rule, Selection, Unit};
 use metaball_core::Color;
 use numpy::ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
@@ -34,6 +34,14 @@ pub(crate) struct Reading {
     drop: Option<Rules>,
     color_by: Option<String>,
     repeat: Option<[u32; 3]>,
+    sph: Option<bool>,
+    preset: Option<String>,
+    support_per_h: Option<f64>,
+    particle_mass: Option<f64>,
+    resolution: Option<f64>,
+    radius_offset: Option<f64>,
+    smoothness: Option<f64>,
+    smoothing_length: Option<f64>,
 }
 
 /// A rule, or some.
@@ -56,7 +64,7 @@ impl Rules {
 }
 
 impl Reading {
-    fn options(self) -> Result<ReadOptions, LoadError> {
+    pub(crate) fn options(self) -> Result<ReadOptions, LoadError> {
         Ok(ReadOptions {
             substance: self.substance.map(|name| name.parse()).transpose()?,
             radius: self.radius,
@@ -73,13 +81,26 @@ impl Reading {
             },
             color_by: self.color_by.map(|text| text.parse()).transpose()?,
             repeat: self.repeat,
+            formula: FormulaOptions {
+                sph: self.sph.unwrap_or(false),
+                preset: self.preset.map(|name| name.parse()).transpose()?,
+                support_per_h: self.support_per_h,
+                particle_mass: self.particle_mass,
+                resolution: self.resolution,
+                radius_offset: self.radius_offset,
+                smoothness: self.smoothness,
+                smoothing_length: self.smoothing_length,
+            },
             ..ReadOptions::default()
         })
     }
 }
 
-/// The arguments of `metaball.Particles`, and the reader's notes as pairs of kind and text.
-type Read<'py> = (Bound<'py, PyDict>, Vec<(&'static str, String)>);
+/// A reader's notes, as pairs of kind and text.
+pub(crate) type Said = Vec<(&'static str, String)>;
+
+/// The arguments of `metaball.Particles`, and the reader's notes.
+type Read<'py> = (Bound<'py, PyDict>, Said);
 
 /// The particles of a file.
 #[pyfunction]
@@ -92,51 +113,69 @@ pub(crate) fn read_particles(
     arguments(py, read.map_err(raised)?)
 }
 
-/// A column of a table, and whether it has words.
+/// A column of a table.
 #[derive(FromPyObject)]
-pub(crate) enum ColumnValues<'py> {
+enum ColumnValues<'py> {
     #[pyo3(transparent, annotation = "numbers")]
     Numbers(PyReadonlyArray1<'py, f64>),
     #[pyo3(transparent, annotation = "a sequence of str")]
     Words(Vec<String>),
 }
 
-/// The particles of a table: of columns alone, or of positions and columns.
-#[pyfunction]
-pub(crate) fn table_particles<'py>(
-    py: Python<'py>,
+/// A `metaball.tables.Table`, whose positions are columns where it has none.
+#[derive(FromPyObject)]
+pub(crate) struct TableArrays<'py> {
     positions: Option<PointArray<'py>>,
     columns: Vec<(String, ColumnValues<'py>)>,
     edges: Option<[[f64; 3]; 3]>,
     atoms: bool,
-    reading: Reading,
-) -> PyResult<Read<'py>> {
-    let columns = columns.into_iter().map(|(name, values)| {
-        let values = match values {
-            ColumnValues::Numbers(numbers) => {
-                Values::Numbers(numbers.as_array().iter().copied().collect())
-            }
-            ColumnValues::Words(words) => {
-                Values::Words(words.iter().map(String::as_str).collect::<Words>())
+}
+
+impl TableArrays<'_> {
+    pub(crate) fn table(self) -> PyResult<Table> {
+        let Self { positions, columns, edges, atoms } = self;
+        let column = |(name, values): (String, ColumnValues<'_>)| Column {
+            name,
+            values: match values {
+                ColumnValues::Numbers(numbers) => {
+                    Values::Numbers(numbers.as_array().iter().copied().collect())
+                }
+                ColumnValues::Words(words) => {
+                    Values::Words(words.iter().map(String::as_str).collect::<Words>())
+                }
+            },
+        };
+        let columns = columns.into_iter().map(column).collect();
+        let table = match positions {
+            None => Table::of_columns(columns).map_err(raised)?,
+            Some(positions) => {
+                let points = positions.points();
+                let positions = (0..points.count()).map(|index| points.at(index)).collect();
+                Table { positions, columns, ..Table::default() }
             }
         };
-        Column { name, values }
-    });
-    let columns = columns.collect();
-    let table = match positions {
-        None => Table::of_columns(columns).map_err(raised)?,
-        Some(positions) => {
-            let points = positions.points();
-            let positions = (0..points.count()).map(|index| points.at(index)).collect();
-            Table { positions, columns, ..Table::default() }
-        }
-    };
-    let cell = edges.and_then(|edges| Cell::new(edges.map(DVec3::from_array)));
-    let unit = atoms.then_some(Unit::Angstrom);
-    let table = Table { cell, atoms, unit, ..table };
+        let cell = edges.and_then(|edges| Cell::new(edges.map(DVec3::from_array)));
+        Ok(Table { cell, atoms, unit: atoms.then_some(Unit::Angstrom), ..table })
+    }
+}
+
+/// The particles of a table.
+#[pyfunction]
+pub(crate) fn table_particles<'py>(
+    py: Python<'py>,
+    table: TableArrays<'py>,
+    reading: Reading,
+) -> PyResult<Read<'py>> {
+    let table = table.table()?;
     let particles =
         py.detach(|| reading.options().and_then(|options| particles_of(table, &options)));
     arguments(py, particles.map_err(raised)?)
+}
+
+/// A kernel and a threshold instead of those that something says of itself.
+pub(crate) fn overrides(kernel: Option<&str>, threshold: Option<f32>) -> PyResult<Overrides> {
+    let kernel = kernel.map(str::parse).transpose().map_err(raised)?;
+    Ok(Overrides { kernel, threshold, ..Overrides::default() })
 }
 
 fn arguments(py: Python<'_>, particles: Particles) -> PyResult<Read<'_>> {
@@ -162,8 +201,12 @@ fn arguments(py: Python<'_>, particles: Particles) -> PyResult<Read<'_>> {
         let channels = colors.into_iter().flat_map(Color::to_srgb).collect();
         arguments.set_item("color", rows(py, channels)?)?;
     }
-    let notes = notes.iter().map(|note| (kind(note.kind), note.text.clone())).collect();
-    Ok((arguments, notes))
+    Ok((arguments, said(&notes)))
+}
+
+/// Notes for Python.
+pub(crate) fn said(notes: &Notes) -> Said {
+    notes.into_iter().map(|note| (kind(note.kind), note.text.clone())).collect()
 }
 
 /// An array of three numbers a row.

@@ -1,26 +1,28 @@
 //! The surface of a scene: its tree, and what is asked of it.
 
+use std::path::PathBuf;
+
 use glam::{DVec3, Vec3};
-use metaball::{DrawOptions, Drawing};
+use metaball::{DrawOptions, Drawing, Loaded, Progress};
 use metaball_core::reference::Oracle;
 use metaball_core::{Camera as SceneCamera, Color, Kernel, RayQuery, Scene};
 use numpy::ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3};
-use particle_files::{Positions, own_camera};
+use particle_files::{Positions, load, load_table, own_camera};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
 use crate::arrays::PointArray;
-use crate::camera::Camera;
+use crate::camera::{Camera, CameraParts, camera_of, parts_of};
 use crate::comparison::{ComparisonArrays, TruthArrays, comparison, truth_arrays, truths};
 use crate::errors::{raised, refused};
 use crate::light::Light;
 use crate::options::{Corners, Plane, clip, picture_named};
 use crate::particles::Particles;
 use crate::rays::{Columns, HitArrays, HitColumns, RayArrays, traced};
-use crate::reading::rows;
-use crate::watch::Watch;
+use crate::reading::{Reading, Said, TableArrays, overrides, rows, said};
+use crate::watch::watch;
 
 /// A scene with its tree and a camera that shows it.
 #[pyclass(frozen, module = "metaball._metaball")]
@@ -50,7 +52,36 @@ impl Surface {
     ) -> PyResult<Self> {
         let kernel = kernel.parse::<Kernel>().map_err(raised)?;
         let scene = particles.scene(py, kernel, threshold).map_err(raised)?;
-        py.detach(|| Self::of(scene))
+        let (camera, _) = own_camera(&scene);
+        Self::of(py, scene, camera)
+    }
+
+    /// The surface of a file, of particles or of a scene, and the reader's notes.
+    #[staticmethod]
+    fn read(
+        py: Python<'_>,
+        path: PathBuf,
+        reading: Reading,
+        kernel: Option<&str>,
+        threshold: Option<f32>,
+    ) -> PyResult<(Self, Said)> {
+        let overrides = overrides(kernel, threshold)?;
+        let loaded = py.detach(|| load(path, &reading.options()?, &overrides));
+        Self::loaded(py, loaded.map_err(raised)?)
+    }
+
+    /// The surface of a table, and what was said of it.
+    #[staticmethod]
+    fn of_table(
+        py: Python<'_>,
+        table: TableArrays<'_>,
+        reading: Reading,
+        kernel: Option<&str>,
+        threshold: Option<f32>,
+    ) -> PyResult<(Self, Said)> {
+        let (overrides, table) = (overrides(kernel, threshold)?, table.table()?);
+        let loaded = py.detach(|| load_table(table, &reading.options()?, &overrides));
+        Self::loaded(py, loaded.map_err(raised)?)
     }
 
     /// The surface of what `state` has given.
@@ -61,14 +92,16 @@ impl Surface {
         kernel: &str,
         threshold: f32,
         origin: [f64; 3],
+        camera: CameraParts,
     ) -> PyResult<Self> {
         let kernel = kernel.parse::<Kernel>().map_err(raised)?;
         let scene = particles.scene(py, kernel, threshold).map_err(raised)?;
-        py.detach(|| Self::of(scene.with_origin(DVec3::from_array(origin))))
+        Self::of(py, scene.with_origin(DVec3::from_array(origin)), camera_of(camera)?)
     }
 
-    /// Its balls in the scene's coordinates, as the arguments of `metaball.Particles`, and the scene's origin.
-    fn state<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Point)> {
+    /// Its balls in the scene's coordinates, as the arguments of `metaball.Particles`, the scene's origin and the
+    /// camera.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Point, CameraParts)> {
         let scene = self.surface.scene();
         let arguments = PyDict::new(py);
         let centers = scene.supports().iter().flat_map(|ball| ball.center.to_array()).collect();
@@ -82,7 +115,7 @@ impl Surface {
             let channels = colors.iter().copied().flat_map(Color::to_srgb).collect();
             arguments.set_item("color", rows(py, channels)?)?;
         }
-        Ok((arguments, scene.origin().into()))
+        Ok((arguments, scene.origin().into(), parts_of(&self.camera)))
     }
 
     #[getter]
@@ -150,12 +183,10 @@ impl Surface {
             light: light.options()?,
             ..DrawOptions::default()
         };
-        let mut watch = Watch::new(bar);
-        let drawn = py.detach(|| {
-            self.surface
-                .draw(&self.camera, &options, |progress| watch.goes_on(progress.done as usize))
-        });
-        let Drawing { image, hits, film, .. } = watch.outcome(drawn.map_err(raised))?;
+        let Drawing { image, hits, film, .. } = watch(py, bar, |watched| {
+            let told = |progress: Progress| watched.is_at(progress.done as usize);
+            self.surface.draw(&self.camera, &options, || watched.goes_on(), told).map_err(raised)
+        })?;
         let (width, height) = (image.width as usize, image.height as usize);
         let columns = py.detach(|| Columns::of(&hits));
         let light = film.map(|film| {
@@ -190,21 +221,17 @@ impl Surface {
         bar: Option<Py<PyAny>>,
     ) -> PyResult<HitArrays<'py>> {
         let rays = rays.rays(self.surface.scene().origin());
-        let mut watch = Watch::new(bar);
         let tracer = self.surface.tracer();
-        let found =
-            py.detach(|| traced(&rays, &tracer, RayQuery::FirstHit, |done| watch.goes_on(done)));
-        watch.outcome(found)?.into_arrays(py)
+        let found = watch(py, bar, |watched| traced(&rays, &tracer, RayQuery::FirstHit, watched));
+        found?.into_arrays(py)
     }
 
     /// Where rays that start inside leave the solid.
     fn exit<'py>(&self, py: Python<'py>, rays: RayArrays<'py>) -> PyResult<HitArrays<'py>> {
         let rays = rays.rays(self.surface.scene().origin());
-        let mut watch = Watch::new(None);
         let tracer = self.surface.tracer();
-        let found =
-            py.detach(|| traced(&rays, &tracer, RayQuery::Exit, |done| watch.goes_on(done)));
-        watch.outcome(found)?.into_arrays(py)
+        let found = watch(py, None, |watched| traced(&rays, &tracer, RayQuery::Exit, watched));
+        found?.into_arrays(py)
     }
 
     /// Whether there is solid on rays: their verdicts.
@@ -214,11 +241,9 @@ impl Surface {
         rays: RayArrays<'py>,
     ) -> PyResult<Bound<'py, PyArray1<u8>>> {
         let rays = rays.rays(self.surface.scene().origin());
-        let mut watch = Watch::new(None);
         let tracer = self.surface.tracer();
-        let found =
-            py.detach(|| traced(&rays, &tracer, RayQuery::AnyHit, |done| watch.goes_on(done)));
-        Ok(PyArray1::from_vec(py, watch.outcome(found)?.into_verdicts()))
+        let found = watch(py, None, |watched| traced(&rays, &tracer, RayQuery::AnyHit, watched));
+        Ok(PyArray1::from_vec(py, found?.into_verdicts()))
     }
 
     /// The truth along rays, by the reference.
@@ -229,9 +254,8 @@ impl Surface {
         bar: Option<Py<PyAny>>,
     ) -> PyResult<TruthArrays<'py>> {
         let rays = rays.rays(self.surface.scene().origin());
-        let mut watch = Watch::new(bar);
-        let found = py.detach(|| truths(&self.oracle().0, &rays, |done| watch.goes_on(done)));
-        truth_arrays(py, &watch.outcome(found)?)
+        let found = watch(py, bar, |watched| truths(&self.oracle().0, &rays, watched));
+        truth_arrays(py, &found?)
     }
 
     /// Hits, as columns, against the truth along the same rays.
@@ -248,9 +272,8 @@ impl Surface {
             let needed = format!("those of {} rays", rays.count());
             return Err(refused("hits", &needed, hits.len()));
         }
-        let mut watch = Watch::new(bar);
-        let found = py.detach(|| truths(&self.oracle().0, &rays, |done| watch.goes_on(done)));
-        comparison(py, &watch.outcome(found)?, &hits)
+        let found = watch(py, bar, |watched| truths(&self.oracle().0, &rays, watched));
+        comparison(py, &found?, &hits)
     }
 
     /// The field at points, f64.
@@ -285,10 +308,17 @@ impl Surface {
 }
 
 impl Surface {
-    fn of(scene: Scene) -> PyResult<Self> {
-        let (camera, _) = own_camera(&scene);
-        let surface = metaball::Model::new(scene, &metaball::Method::default()).map_err(raised)?;
+    fn of(py: Python<'_>, scene: Scene, camera: SceneCamera) -> PyResult<Self> {
+        let method = metaball::Method::default();
+        let surface = watch(py, None, |watched| {
+            metaball::Model::new_while(scene, &method, || watched.goes_on()).map_err(raised)
+        })?;
         Ok(Self { surface, camera })
+    }
+
+    fn loaded(py: Python<'_>, loaded: Loaded) -> PyResult<(Self, Said)> {
+        let Loaded { scene, camera, notes, .. } = loaded;
+        Ok((Self::of(py, scene, camera)?, said(&notes)))
     }
 
     /// The reference, and the origin of its coordinates.

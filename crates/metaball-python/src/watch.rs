@@ -1,49 +1,75 @@
-//! A long computation, watched: signals end it, and a bar shows how far it is.
+//! A long computation, watched: it has a thread of its own, while the caller's looks for signals and tells a bar
+//! how far it is.
 
-use std::ops::ControlFlow;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::Duration;
 
 use pyo3::prelude::*;
 
-/// Watches a computation that does not hold the interpreter.
-pub(crate) struct Watch {
-    /// An object with `update(n)`, as tqdm's bars have; what it is told of is done.
-    bar: Option<Py<PyAny>>,
-    told: usize,
-    /// What a signal or the bar has raised.
-    raised: Option<PyErr>,
+/// How long a signal may wait.
+const PAUSE: Duration = Duration::from_millis(50);
+
+/// A computation, as it sees whoever watches it.
+pub(crate) struct Watched<'a> {
+    given_up: &'a AtomicBool,
+    done: Sender<usize>,
 }
 
-impl Watch {
-    pub(crate) fn new(bar: Option<Py<PyAny>>) -> Self {
-        Self { bar, told: 0, raised: None }
+impl Watched<'_> {
+    /// Whether it is still wanted.
+    pub(crate) fn goes_on(&self) -> bool {
+        !self.given_up.load(Ordering::Relaxed)
     }
 
-    /// So much is done: whether to go on.
-    pub(crate) fn goes_on(&mut self, done: usize) -> ControlFlow<()> {
-        let asked = Python::attach(|py| {
-            py.check_signals()?;
-            match &self.bar {
-                Some(bar) if done > self.told => {
-                    bar.call_method1(py, "update", (done - self.told,)).map(drop)
+    /// So much of it is done.
+    pub(crate) fn is_at(&self, done: usize) {
+        // Whoever watches waits for the end.
+        let _ = self.done.send(done);
+    }
+}
+
+/// What is computed, without the interpreter. `bar` is an object with `update(n)`, as tqdm's bars have.
+///
+/// # Errors
+/// The computation's own, or what a signal or the bar has raised: then its own is not looked at.
+pub(crate) fn watch<T: Send>(
+    py: Python<'_>,
+    bar: Option<Py<PyAny>>,
+    compute: impl FnOnce(&Watched<'_>) -> PyResult<T> + Send,
+) -> PyResult<T> {
+    py.detach(|| {
+        let given_up = AtomicBool::new(false);
+        let (done, told) = mpsc::channel();
+        thread::scope(|scope| {
+            let watched = Watched { given_up: &given_up, done };
+            let worker = scope.spawn(move || compute(&watched));
+            let (mut shown, mut raised) = (0, None);
+            loop {
+                let done = match told.recv_timeout(PAUSE) {
+                    Ok(done) => done,
+                    Err(RecvTimeoutError::Timeout) => shown,
+                    Err(RecvTimeoutError::Disconnected) => break,
+                };
+                if raised.is_none() {
+                    raised = Python::attach(|py| look(py, bar.as_ref(), done - shown)).err();
+                    given_up.store(raised.is_some(), Ordering::Relaxed);
                 }
-                _ => Ok(()),
+                shown = done;
             }
-        });
-        self.told = done;
-        match asked {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                self.raised = Some(error);
-                ControlFlow::Break(())
-            }
-        }
-    }
+            let computed = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+            raised.map_or(computed, Err)
+        })
+    })
+}
 
-    /// What was computed, or what ended it.
-    pub(crate) fn outcome<T>(self, computed: PyResult<T>) -> PyResult<T> {
-        match self.raised {
-            Some(error) => Err(error),
-            None => computed,
-        }
+/// Handles signals, and tells the bar of what has been done since.
+fn look(py: Python<'_>, bar: Option<&Py<PyAny>>, steps: usize) -> PyResult<()> {
+    py.check_signals()?;
+    match bar {
+        Some(bar) if steps > 0 => bar.call_method1(py, "update", (steps,)).map(drop),
+        _ => Ok(()),
     }
 }

@@ -14,6 +14,7 @@ GALLERY = Path(__file__).parent.parent / "gallery"
 SCRIPTS = {
     "balls": (["balls.png"], None),
     "crystal": (["crystal.png"], "ase"),
+    "dask_frames": ([f"frame-{frame:03}.png" for frame in range(12)], "distributed"),
     "error_map": (["errors.png"], None),
     "field_slice": (["slice.png"], None),
     "molecule": (["molecule.png"], "MDAnalysis"),

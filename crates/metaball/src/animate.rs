@@ -11,8 +11,8 @@ use std::time::Instant;
 use metaball_core::View;
 use particle_files::{AnimatedScene, NumberedPath};
 use picture_files::{
-    PictureFile, PictureFileError, RunFile, Target, description_in, ensure_sheet, ensure_writable,
-    refuse_overlap, write_atomically, write_sheet,
+    PictureFile, PictureFileError, RunFile, Target, ensure_sheet, ensure_writable, refuse_overlap,
+    whole_picture, write_atomically, write_sheet,
 };
 
 use self::numbers::Numbers;
@@ -36,8 +36,8 @@ pub struct AnimateOptions {
     /// Where a picture of all frames side by side goes, if anywhere; of the same formats. None is written
     /// where frames are broken, or were asked for and are not there.
     pub sheet: Option<PathBuf>,
-    /// Draw what is there already, too.
-    pub force: bool,
+    /// What is kept of what is there already.
+    pub keep: Keep,
     /// Whether each frame is built only after the one before was drawn.
     pub in_turn: bool,
     /// Files that are never written over: those that the scene is read from, such as
@@ -54,11 +54,24 @@ impl AnimateOptions {
             every: 1,
             out,
             sheet: None,
-            force: false,
+            keep: Keep::default(),
             in_turn: false,
             inputs: Vec::new(),
         }
     }
+}
+
+/// Which frames that are there already are kept: only whole pictures ever are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Keep {
+    /// Those that say that they were drawn with the same options, by the same version, on the same kind of
+    /// device, the CPU or an adapter.
+    #[default]
+    Same,
+    /// All of the wanted size, whatever they show.
+    Complete,
+    /// None.
+    Nothing,
 }
 
 /// What happens while frames are drawn.
@@ -80,7 +93,7 @@ pub enum AnimationEvent<'a> {
 
 /// Draws the frames that are not there yet. Returns the report, and where it is written.
 ///
-/// A frame is there if its file is a whole picture that says it was drawn with these options. Whether the
+/// A frame is there if its file is a whole picture, to its last byte, and one that [`Keep`] keeps. Whether the
 /// user's particles have changed since is not looked at.
 ///
 /// A frame whose particles cannot be used does not stop the others: the report
@@ -124,8 +137,15 @@ pub fn animate(
     };
 
     let is_kept = |number: &u32| {
-        let found = description_in(&options.out.path(*number));
-        !options.force && found.is_some_and(|found| found == job.description(*number))
+        let found = || whole_picture(&options.out.path(*number));
+        match options.keep {
+            Keep::Same => {
+                let description = found().and_then(|found| found.description);
+                description.is_some_and(|description| description == job.description(*number))
+            }
+            Keep::Complete => found().is_some_and(|found| found.size == draw.size),
+            Keep::Nothing => false,
+        }
     };
     let (kept, missing): (Vec<u32>, Vec<u32>) =
         numbers.present.iter().partition(|number| is_kept(number));
@@ -248,6 +268,27 @@ mod tests {
         let after = fs::metadata(&third).and_then(|data| data.modified()).expect("a file");
         assert_eq!(before, after, "a frame that was there was drawn again");
         assert!(resumed.join("f-00.json").is_file());
+    }
+
+    #[test]
+    fn what_is_kept_is_whole_and_what_was_asked_for() {
+        let (folder, tornado) = (folder(), moving("tornado:300"));
+        let at = |number: u32| folder.path().join(format!("f-{number:02}.png"));
+        let plain = options(Backend::Cpu, folder.path());
+        run(&tornado, &plain);
+        let mut lit = plain.clone();
+        lit.draw.light = LightOptions { shadows: true, ..LightOptions::default() };
+        // A picture of another size, and one without its last byte.
+        let mut small = AnimateOptions { frames: Some(1..2), ..plain };
+        small.draw.size = (16, 12);
+        run(&tornado, &small);
+        let bytes = fs::read(at(2)).expect("drawn");
+        fs::write(at(2), &bytes[..bytes.len() - 1]).expect("written");
+        let kept = |keep| run(&tornado, &AnimateOptions { keep, ..lit.clone() }).kept;
+        assert_eq!(kept(Keep::Complete), [0, 3]);
+        assert_eq!(kept(Keep::Complete), [0, 1, 2, 3]);
+        assert_eq!(kept(Keep::Same), [1, 2]);
+        assert_eq!(kept(Keep::Nothing), Vec::<u32>::new());
     }
 
     #[test]

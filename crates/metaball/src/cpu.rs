@@ -3,13 +3,14 @@
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-use fbvh::{ClippedTracer, Tracer, Tree};
+use fbvh::{BuildError, ClippedTracer, Tracer, Tree};
 use metaball_core::shade::{CpuPicture, Shader};
 use metaball_core::{Clip, Hit, Scene, ValueRange, View};
 use metaball_light::DepthCue;
 use metaball_light::cpu::PathTracer;
 
 use crate::band::{Band, Planes};
+use crate::interruptible::{GoesOn, Interruptible};
 use crate::light::Lighting;
 use crate::summary::Tally;
 use crate::{DrawOptions, Error, Method};
@@ -24,6 +25,15 @@ pub(crate) struct Built {
 impl Built {
     /// Builds the method's tree.
     pub(crate) fn new(method: &Method, scene: &Scene) -> Result<Self, Error> {
+        Self::while_wanted(method, scene, &|| true)
+    }
+
+    /// The same as long as it is wanted.
+    pub(crate) fn while_wanted(
+        method: &Method,
+        scene: &Scene,
+        goes_on: GoesOn<'_>,
+    ) -> Result<Self, Error> {
         let options = method.tree().ok_or_else(|| match method.is_on_host() {
             false => Error::NeedsAdapter {
                 what: format!("method {}", method.name()),
@@ -36,8 +46,10 @@ impl Built {
             },
         })?;
         let start = Instant::now();
-        let tree = Tree::build(scene, &options)
-            .map_err(|source| Error::Build { method: method.name().to_owned(), source })?;
+        let tree = Tree::build_while(scene, &options, goes_on).map_err(|source| match source {
+            BuildError::BrokenOff => Error::Interrupted,
+            source => Error::Build { method: method.name().to_owned(), source },
+        })?;
         Ok(Self { tree, time: start.elapsed() })
     }
 
@@ -64,7 +76,7 @@ impl Built {
 /// Draws bands of a view, in any order: each is the same, bit for bit, as in the whole picture.
 pub(crate) struct Painter<'a> {
     view: &'a View,
-    tracer: &'a ClippedTracer<'a, Scene>,
+    tracer: &'a Interruptible<'a>,
     look: Look<'a>,
 }
 
@@ -74,12 +86,12 @@ enum Look<'a> {
     Lit(&'a Lighting, Box<Paths<'a>>),
 }
 
-type Paths<'a> = PathTracer<'a, ClippedTracer<'a, Scene>>;
+type Paths<'a> = PathTracer<'a, Interruptible<'a>>;
 
 impl<'a> Painter<'a> {
     /// Of a view in this light, if there is any, else of what the options say.
     pub(crate) fn new(
-        tracer: &'a ClippedTracer<'a, Scene>,
+        tracer: &'a Interruptible<'a>,
         scene: &'a Scene,
         view: &'a View,
         options: &DrawOptions,
@@ -116,7 +128,7 @@ impl<'a> Painter<'a> {
     /// that there are.
     pub(crate) fn watched_pixels(&self) -> u32 {
         match self.look {
-            Look::Shared(_) => 1 << 18,
+            Look::Shared(_) => 1 << 16,
             Look::Lit(..) => 1,
         }
     }
@@ -237,6 +249,7 @@ mod tests {
     fn drawn(scene: &Scene, view: &View, options: &DrawOptions, pixels: u32) -> Band {
         let built = Built::new(&options.method, scene).expect("built");
         let tracer = built.tracer(scene, &options.clip).expect("a tracer");
+        let tracer = Interruptible::never(&tracer);
         let lighting = options.lighting(view, scene).expect("light");
         let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref());
         let painter = painter.expect("a painter");

@@ -13,8 +13,9 @@ use crate::adapter;
 use crate::backend::Opened;
 use crate::band::{Band, bands};
 use crate::cpu::{Built, Painter};
+use crate::interruptible::{GoesOn, Interruptible};
 use crate::light::Lighting;
-use crate::summary::{Progress, Stage, Summary, asked};
+use crate::summary::{Progress, Stage, Summary};
 use crate::{Backend, Error, LightOptions, Method, Viewpoint};
 
 /// How to draw.
@@ -170,30 +171,32 @@ pub(crate) fn on_cpu(
     computed_by: String,
 ) -> Result<Drawing, Error> {
     let built = Built::new(&options.method, scene)?;
-    let all = |_| ControlFlow::Continue(());
-    draw_built(&built, (scene, view), options, lighting, computed_by, all)
+    draw_built(&built, (scene, view), options, lighting, computed_by, (&|| true, |_| ()))
 }
 
-/// Draws a scene that is built, without an adapter. After each band the callback gets how many rows are
-/// done, and may break off.
+/// Draws a scene that is built, without an adapter, as long as the picture is wanted. After each band the
+/// callback gets how many rows are done.
 pub(crate) fn draw_built(
     built: &Built,
     (scene, view): (&Scene, &View),
     options: &DrawOptions,
     lighting: Option<&Lighting>,
     computed_by: String,
-    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+    (goes_on, mut progress): (GoesOn<'_>, impl FnMut(Progress)),
 ) -> Result<Drawing, Error> {
     let tracer = built.tracer(scene, &options.clip_of(scene))?;
+    let tracer = Interruptible::new(&tracer, goes_on);
     let painter = Painter::new(&tracer, scene, view, options, lighting)?;
     let planes = painter.planes(true, true);
     let (stage, of, resumed) = (Stage::Drawing, view.height(), 0);
-    let mut report = |done| asked(progress(Progress { stage, done, of, resumed }));
     let mut whole = Band::default();
-    report(0)?;
+    progress(Progress { stage, done: 0, of, resumed });
     for rows in bands(view, 0, painter.watched_pixels()) {
         whole.append(painter.band(rows, planes));
-        report(whole.rows.end)?;
+        if !tracer.goes_on() {
+            return Err(Error::Interrupted);
+        }
+        progress(Progress { stage, done: whole.rows.end, of, resumed });
     }
     let mut range = None;
     if !planes.pixels {

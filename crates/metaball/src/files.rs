@@ -14,6 +14,7 @@ use crate::band::{Planes, bands};
 use crate::cpu::{Built, Finisher, Painter};
 use crate::draw::{Attempt, no_light, on_adapter};
 use crate::inputs::inputs;
+use crate::interruptible::Interruptible;
 use crate::legend::save_legend;
 use crate::spool::{Description, Spool};
 use crate::summary::{Progress, Stage, Summary, Tally, asked};
@@ -169,6 +170,7 @@ impl Job<'_> {
         let lighting = options.lighting(view, scene)?;
         let built = Built::new(&options.method, scene)?;
         let tracer = built.tracer(scene, &options.clip_of(scene))?;
+        let tracer = Interruptible::never(&tracer);
         let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref())?;
         let planes = painter.planes(outputs.hits.is_some(), outputs.light.is_some());
         let description = Description::new(scene, view, options, planes);

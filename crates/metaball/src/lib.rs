@@ -50,17 +50,20 @@ mod emptiness;
 mod error;
 mod files;
 mod inputs;
+mod interruptible;
 mod legend;
 mod light;
 mod method;
 mod model;
 mod spool;
 mod summary;
+mod trouble;
 mod viewpoint;
 
 #[cfg(feature = "gpu")]
 pub use animate::{
-    AnimateOptions, AnimationEvent, AnimationReport, FrameOutcome, FrameReport, FrameTimes, animate,
+    AnimateOptions, AnimationEvent, AnimationReport, FrameOutcome, FrameReport, FrameTimes, Keep,
+    animate,
 };
 pub use backend::Backend;
 pub use convert::convert_file;
@@ -85,4 +88,5 @@ pub use particle_files::{
     Sequence, Substance, Unit, inputs, load,
 };
 pub use summary::{Progress, Stage, Summary, Tally};
+pub use trouble::is_trouble;
 pub use viewpoint::Viewpoint;

@@ -13,6 +13,7 @@ use crate::backend::Opened;
 use crate::band::{Band, bands};
 use crate::cpu::{Built, Painter};
 use crate::draw::draw_built;
+use crate::interruptible::{GoesOn, Interruptible};
 use crate::light::DEPTH_CUE_WIDTH;
 use crate::summary::{Progress, asked};
 use crate::{DrawOptions, Drawing, Error, LightOptions, Method};
@@ -69,7 +70,19 @@ impl Model {
     /// # Errors
     /// When the method has no tree on the CPU, or it cannot be built for the scene.
     pub fn new(scene: Scene, method: &Method) -> Result<Self, Error> {
-        let built = Built::new(method, &scene)?;
+        Self::new_while(scene, method, || true)
+    }
+
+    /// The same as long as `goes_on` says so; it is asked on any thread.
+    ///
+    /// # Errors
+    /// As [`new`](Model::new), and when it was broken off.
+    pub fn new_while(
+        scene: Scene,
+        method: &Method,
+        goes_on: impl Fn() -> bool + Sync,
+    ) -> Result<Self, Error> {
+        let built = Built::while_wanted(method, &scene, &goes_on)?;
         Ok(Self { bounds: scene.bounds(), scene, method: method.clone(), built })
     }
 
@@ -103,17 +116,18 @@ impl Model {
         self.built.whole_tracer(&self.scene)
     }
 
-    /// Draws it on the CPU, byte for byte as [`draw`](crate::draw()) does. `camera` is the scene's own. After
-    /// each part that is done the callback hears of it, and it may break off.
+    /// Draws it on the CPU, byte for byte as [`draw`](crate::draw()) does, as long as `goes_on` says so: it is
+    /// asked often, on any thread, and once it has said no it must stay with that. `camera` is the scene's own.
+    /// Of each part that is done `progress` is told.
     ///
     /// # Errors
-    /// When an option cannot be used, another method or an adapter is asked for, or the callback breaks
-    /// off.
+    /// When an option cannot be used, another method or an adapter is asked for, or it was broken off.
     pub fn draw(
         &self,
         camera: &Camera,
         options: &DrawOptions,
-        progress: impl FnMut(Progress) -> ControlFlow<()>,
+        goes_on: impl Fn() -> bool + Sync,
+        progress: impl FnMut(Progress),
     ) -> Result<Drawing, Error> {
         let refused = |option, needed: &str, found| {
             Err(Error::Option { option, needed: needed.to_owned(), found })
@@ -129,7 +143,8 @@ impl Model {
         let lighting = options.lighting(&view, &self.scene)?;
         let computed_by = Opened::cpu("it has the tree").describe();
         let of = (&self.scene, &view);
-        draw_built(&self.built, of, options, lighting.as_ref(), computed_by, progress)
+        let watched = (&goes_on as GoesOn<'_>, progress);
+        draw_built(&self.built, of, options, lighting.as_ref(), computed_by, watched)
     }
 
     /// What a region leaves of it, in the coordinates of the scene's file ([`Scene::origin`]).
@@ -159,7 +174,8 @@ impl Solid<'_> {
         mut watch: impl FnMut() -> ControlFlow<()>,
     ) -> Result<Shown, Error> {
         let options = self.options(picture);
-        let painter = Painter::new(&self.tracer, &self.model.scene, view, &options, None)?;
+        let tracer = Interruptible::never(&self.tracer);
+        let painter = Painter::new(&tracer, &self.model.scene, view, &options, None)?;
         let planes = painter.planes(true, false);
         let mut whole = Band::default();
         for rows in bands(view, 0, BAND_PIXELS) {
@@ -190,8 +206,9 @@ impl Solid<'_> {
     ) -> Result<(), Error> {
         let scene = &self.model.scene;
         let lighting = light.lighting(view.camera(), scene)?;
+        let tracer = Interruptible::never(&self.tracer);
         let paths = lighting
-            .on_cpu(&self.tracer, scene, view)
+            .on_cpu(&tracer, scene, view)
             .ok_or_else(|| Error::unlit(&self.model.method))?;
         let mut hits = Vec::new();
         for rows in bands(view, 0, BAND_PIXELS) {
@@ -335,19 +352,18 @@ mod tests {
         for options in [plain, lit] {
             let wanted = draw(&bench.scene, &bench.camera, &options).expect("drawn");
             let mut rows = Vec::new();
-            let watch = |progress: Progress| {
-                rows.push(progress.done);
-                ControlFlow::Continue(())
-            };
-            let found = model.draw(&bench.camera, &options, watch).expect("drawn");
+            let watch = |progress: Progress| rows.push(progress.done);
+            let found = model.draw(&bench.camera, &options, || true, watch).expect("drawn");
             assert!(found.image == wanted.image && found.hits == wanted.hits);
             assert_eq!((rows.first(), rows.last()), (Some(&0), Some(&83)));
-            let stopped = model.draw(&bench.camera, &options, |_| ControlFlow::Break(()));
+            let stopped = model.draw(&bench.camera, &options, || false, |_| ());
             assert!(matches!(stopped, Err(Error::Interrupted)));
         }
+        let stopped = Model::new_while(bench.scene.clone(), &Method::default(), || false);
+        assert!(matches!(stopped, Err(Error::Interrupted)));
         let fitted =
             DrawOptions { method: Method::Tree(fbvh::Options::fitted()), ..DrawOptions::default() };
-        let refused = model.draw(&bench.camera, &fitted, |_| ControlFlow::Continue(()));
+        let refused = model.draw(&bench.camera, &fitted, || true, |_| ());
         let refused = refused.expect_err("another method").to_string();
         assert!(refused.starts_with("method: needed fbvh-certified"), "{refused}");
     }

@@ -8,7 +8,7 @@
 //! - [`read()`] stops at the particles: positions with sizes and colours, before a kernel and a threshold
 //!   make a surface of them. [`parse()`] does the same to bytes that are no file.
 //! - A [`Formula`] makes the balls of SPH or of another program of particles, where one is asked for.
-//! - [`particles_of()`] begins with a table that may come from elsewhere.
+//! - [`particles_of()`] and [`load_table()`] begin with a table that may come from elsewhere.
 //! - [`read_table()`] stops before anything is decided: positions and columns as the file has them.
 //! - [`Sequence`] has a scene for each frame.
 //!
@@ -94,7 +94,7 @@ pub use formula::{
 };
 pub use framing::{framing, own_camera};
 pub use inputs::inputs;
-pub use load::{Loaded, load};
+pub use load::{Loaded, load, load_table};
 pub use notes::{Note, NoteKind, Notes};
 pub use numbered_path::NumberedPath;
 pub use options::{ReadOptions, Substance};

@@ -15,15 +15,17 @@ use crate::framing::{FRONT, framed, framing};
 use crate::notes::Notes;
 use crate::options::ReadOptions;
 use crate::overrides::Overrides;
-use crate::read::read;
+use crate::particles::Particles;
+use crate::read::{particles_of, read};
 use crate::scene_file::{SceneCamera, SceneFile};
 use crate::surface::Surface;
+use crate::table::Table;
 
 /// What was loaded from a file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Loaded {
-    /// The file's name without its folder.
+    /// The file's name without its folder; empty for a table of elsewhere.
     pub name: String,
     /// The balls, their kernel and threshold.
     pub scene: Scene,
@@ -54,7 +56,36 @@ pub fn load(
     }
     let options = &source.options(options);
     let surface = source.surface(options)?.overridden(overrides)?;
-    let mut particles = read(&source.particles, options)?;
+    let particles = read(&source.particles, options)?;
+    let loaded = loaded(particles, &surface, (options, overrides), |origin| {
+        let camera = source.camera.as_ref().map(|camera| camera.at(origin)).transpose();
+        camera.map_err(|flaw| flaw.in_file(&named(path)))
+    })?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Loaded { name, ..loaded })
+}
+
+/// The scene of a table, which need not come from a file: [`load`] after the table. It has no name.
+///
+/// # Errors
+/// Names the column or the option, what was needed and what was found.
+pub fn load_table(
+    table: Table,
+    options: &ReadOptions,
+    overrides: &Overrides,
+) -> Result<Loaded, LoadError> {
+    let surface = Source::default().surface(options)?.overridden(overrides)?;
+    loaded(particles_of(table, options)?, &surface, (options, overrides), |_| Ok(None))
+}
+
+/// The scene of particles, without a name. It has a camera of its own where coordinates begin, or else one
+/// that frames the particles.
+fn loaded(
+    mut particles: Particles,
+    surface: &Surface,
+    (options, overrides): (&ReadOptions, &Overrides),
+    own_camera: impl FnOnce(DVec3) -> Result<Option<Camera>, LoadError>,
+) -> Result<Loaded, LoadError> {
     let (cell, legend) = (particles.cell, particles.legend.take());
     let (scene, mut notes) = surface.scene(particles, None)?;
     if scene.origin() != DVec3::ZERO {
@@ -63,13 +94,12 @@ pub fn load(
             scene.origin()
         ));
     }
-    let camera = match &source.camera {
-        Some(camera) => camera.at(scene.origin()).map_err(|flaw| flaw.in_file(&named(path)))?,
+    let camera = match own_camera(scene.origin())? {
+        Some(camera) => camera,
         None => framing(&framed(&scene, cell.as_ref(), options, &mut notes), FRONT),
     };
     let scene = overrides.apply(scene)?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Loaded { name, scene, camera, cell, legend, notes })
+    Ok(Loaded { name: String::new(), scene, camera, cell, legend, notes })
 }
 
 /// A particle file, and how its balls make a surface.

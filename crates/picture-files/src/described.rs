@@ -10,8 +10,17 @@ use metaball_core::Image;
 use crate::picture::PictureFormat;
 use crate::{PictureFileError, write_atomically};
 
+/// A file that is a picture to its last byte.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WholePicture {
+    /// Pixels across and down.
+    pub size: (u32, u32),
+    /// What it says it shows, if anything.
+    pub description: Option<String>,
+}
+
 /// Writes an image, as [`write_picture`](crate::write_picture) does, with a text that
-/// [`description_in`] finds: in a PNG as the text `Description`, in a JPEG as its comment.
+/// [`whole_picture`] finds: in a PNG as the text `Description`, in a JPEG as its comment.
 ///
 /// # Errors
 /// When the image's size and its bytes do not agree, the ending is another, or the file cannot be
@@ -24,15 +33,15 @@ pub fn write_described(path: &Path, image: &Image, text: &str) -> Result<(), Pic
     write_atomically(path, &bytes)
 }
 
-/// The text in a file; `None` where there is no file, no whole picture of the format that its ending
-/// names, or no text.
-pub fn description_in(path: &Path) -> Option<String> {
+/// The picture in a file; `None` where there is no file, or no whole picture of the format that its ending
+/// names.
+pub fn whole_picture(path: &Path) -> Option<WholePicture> {
     if !path.is_file() {
         return None;
     }
     match PictureFormat::of(path).ok()? {
-        PictureFormat::Png => png::text_in(path),
-        PictureFormat::Jpeg => jpeg::text_in(path),
+        PictureFormat::Png => png::whole(path),
+        PictureFormat::Jpeg => jpeg::whole(path),
     }
 }
 
@@ -45,6 +54,10 @@ mod tests {
     fn image() -> Image {
         let rgba = (0..20 * 20).flat_map(|index| [(index * 37 % 251) as u8, 7, 200, 255]).collect();
         Image { width: 20, height: 20, rgba }
+    }
+
+    fn description_in(path: &Path) -> Option<String> {
+        whole_picture(path)?.description
     }
 
     #[test]
@@ -60,10 +73,11 @@ mod tests {
             let bytes = fs::read(&path).expect("readable");
             for length in [0, 3, 50, bytes.len() / 2, bytes.len() - 13, bytes.len() - 1] {
                 fs::write(&path, &bytes[..length]).expect("written");
-                assert_eq!(description_in(&path), None, "{length} of {} bytes", bytes.len());
+                assert_eq!(whole_picture(&path), None, "{length} of {} bytes", bytes.len());
             }
             crate::write_picture(&path, &image).expect("written");
-            assert_eq!(description_in(&path), None);
+            let plain = WholePicture { size: (20, 20), description: None };
+            assert_eq!(whole_picture(&path), Some(plain));
             assert!(write_described(&path, &Image { width: 21, ..image.clone() }, "").is_err());
         }
     }
@@ -95,7 +109,7 @@ mod tests {
             let mut mutated = bytes.clone();
             mutated[at] = mutated[at].wrapping_add(1 + (at % 255) as u8);
             fs::write(&path, &mutated).expect("written");
-            let _ = description_in(&path);
+            let _ = whole_picture(&path);
         }
     }
 }

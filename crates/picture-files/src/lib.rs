@@ -3,7 +3,7 @@
 //! | what | format | |
 //! | --- | --- | --- |
 //! | a picture | PNG or JPEG, eight bits a channel, sRGB | [`PictureFile`], [`write_picture`], [`encode_png`] |
-//! | a picture that says what it shows | the same with a text | [`write_described`], [`description_in`] |
+//! | a picture that says what it shows | the same with a text | [`write_described`], [`whole_picture`] |
 //! | pictures side by side | PNG or JPEG | [`write_sheet`] |
 //! | hits: distance and normal | OpenEXR or NumPy | [`HitsFile`], [`write_hits`], [`read_hits`] |
 //! | linear light | OpenEXR; Radiance HDR is read too | [`LightFile`], [`write_light`], [`read_light`] |
@@ -41,7 +41,7 @@ mod scan_lines;
 mod sheet;
 mod target;
 
-pub use described::{description_in, write_described};
+pub use described::{WholePicture, whole_picture, write_described};
 pub use draft::{ensure_writable, write_atomically};
 pub use error::PictureFileError;
 pub use hits::{HitImage, HitsFile, read_hits, write_hits};

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::console;
 use crate::outputs::output_files;
+use crate::shortfall::Shortfall;
 use harness::output::write_json;
 use picture_files::write_atomically;
 
@@ -40,6 +41,8 @@ pub(super) fn publish<R: Report>(
     write_json(&json, &report)?;
     write_atomically(&page, report.page().as_bytes())?;
     console::line(&format!("\n{}", page.display()));
-    anyhow::ensure!(!report.is_empty(), "nothing could be measured; see the page");
+    if report.is_empty() {
+        return Err(Shortfall("nothing could be measured; see the page".to_owned()).into());
+    }
     Ok(())
 }

@@ -11,6 +11,7 @@ use self::run::{Measured, PlannedScene, SceneForms};
 use crate::console::{ProgressBar, open_adapter};
 use crate::extent::Extent;
 use crate::page::cpu_remark;
+use crate::shortfall::Shortfall;
 use crate::table::{Column, Table};
 use crate::tables::heading::Heading;
 use crate::tables::report::{Report, publish};
@@ -93,7 +94,9 @@ fn measure(gpu: &Gpu, plan: &[PlannedScene]) -> anyhow::Result<Measurements> {
         }
     }
     drop(progress);
-    anyhow::ensure!(!scenes.is_empty(), "nothing could be measured: {}", remarks.join(" "));
+    if scenes.is_empty() {
+        return Err(Shortfall(format!("nothing could be measured: {}", remarks.join(" "))).into());
+    }
     Ok(Measurements {
         heading: Heading::new(SCHEMA, Some(gpu), remarks),
         size: plan.first().map_or((0, 0), |planned| planned.size),

@@ -44,7 +44,7 @@ const WIDEST: f32 = 16.0;
 /// `shaders/wgsl/fbvh/relative_ray.wgsl`).
 const WIDENED: f32 = 4e-6;
 
-impl Builder {
+impl Builder<'_> {
     /// Cuts the box of a node if it may hold surface and is too much for a leaf.
     pub(super) fn divide_classified(
         &self,

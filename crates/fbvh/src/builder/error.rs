@@ -38,4 +38,7 @@ pub enum BuildError {
         /// How many there may be.
         limit: usize,
     },
+    /// Whoever waited for it did not want it any more.
+    #[error("broken off")]
+    BrokenOff,
 }

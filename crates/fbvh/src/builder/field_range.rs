@@ -32,7 +32,7 @@ const SUM_ROUNDING: f64 = 1.1e-7;
 /// The longest list that is summed in f32 for certain.
 const MOST_TERMS: usize = 1 << 24;
 
-impl Builder {
+impl Builder<'_> {
     /// Whether the field is certainly at T or below in the whole box.
     pub(super) fn is_empty(&self, list: &[Ball], bounds: &Aabb) -> bool {
         let (near_low, near_high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
@@ -146,6 +146,8 @@ impl Builder {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicBool;
+
     use glam::Vec3;
     use metaball_core::Kernel;
     use proptest::prelude::*;
@@ -183,7 +185,7 @@ mod tests {
     }
 
     /// A builder of certified trees of these balls.
-    fn builder(kernel: Kernel, threshold: f32, balls: &[Ball]) -> Builder {
+    fn builder(kernel: Kernel, threshold: f32, balls: &[Ball]) -> Builder<'static> {
         Builder {
             kernel,
             threshold,
@@ -194,6 +196,8 @@ mod tests {
             has_negative: balls.iter().any(Ball::is_negative),
             options: Options::certified(),
             grown: GrownPieces::default(),
+            goes_on: &|| true,
+            broken_off: AtomicBool::new(false),
         }
     }
 

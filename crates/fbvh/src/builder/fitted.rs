@@ -8,7 +8,7 @@ use super::pool::Pool;
 use super::{Builder, MEDIAN_FROM};
 use crate::options::{Boxes, Fitting};
 
-impl Builder {
+impl Builder<'_> {
     /// Cuts the node's box, gives each part the balls that reach it, and fits it to them.
     pub(super) fn divide_fitted(
         &self,

@@ -13,7 +13,7 @@ use super::{Builder, MEDIAN_FROM};
 /// meets one of the leaf's own balls meets every box above it.
 const EXACT_UP_TO: usize = 32;
 
-impl Builder {
+impl Builder<'_> {
     /// Distributes own balls by their centres, and finds each part's split balls.
     pub(super) fn divide_modified(
         &self,

@@ -17,13 +17,14 @@ from .camera import Camera
 from .comparison import Comparison, Finding, Score, Truth
 from .hits import Hits, Verdict
 from .image import Image
-from .particles import Particles, ReadOptions, ReaderWarning
+from .particles import FieldOptions, Particles, ReadOptions, ReaderWarning
 from .progress import ProgressBar
 from .surface import LightOptions, Surface
 
 __all__ = [
     "Camera",
     "Comparison",
+    "FieldOptions",
     "Finding",
     "Floats",
     "Hits",

@@ -8,12 +8,15 @@ import numpy.typing as npt
 
 from .arrays import Floats
 from .progress import ProgressBar
+from .tables import Table
 
 __version__: str
 
 Rays = tuple[Floats, Floats, Floats, Floats]
 Columns = tuple[npt.NDArray[np.float32], npt.NDArray[np.float32], npt.NDArray[np.uint8]]
 Point = tuple[float, float, float]
+Notes = list[tuple[str, str]]
+CameraNumbers = tuple[list[float], list[list[float]], float]
 
 class ParticleArrays(Protocol):
     @property
@@ -40,10 +43,25 @@ class CameraParts(Protocol):
 class Surface:
     def __new__(cls, particles: ParticleArrays, kernel: str, threshold: float) -> Surface: ...
     @staticmethod
+    def read(
+        path: str | PathLike[str],
+        reading: dict[str, object],
+        kernel: str | None,
+        threshold: float | None,
+    ) -> tuple[Surface, Notes]: ...
+    @staticmethod
+    def of_table(
+        table: Table, reading: dict[str, object], kernel: str | None, threshold: float | None
+    ) -> tuple[Surface, Notes]: ...
+    @staticmethod
     def restored(
-        particles: ParticleArrays, kernel: str, threshold: float, origin: Point
+        particles: ParticleArrays,
+        kernel: str,
+        threshold: float,
+        origin: Point,
+        camera: CameraNumbers,
     ) -> Surface: ...
-    def state(self) -> tuple[dict[str, Any], Point]: ...
+    def state(self) -> tuple[dict[str, Any], Point, CameraNumbers]: ...
     @property
     def kernel(self) -> str: ...
     @property
@@ -99,15 +117,11 @@ class Surface:
     def gradient(self, points: Floats) -> npt.NDArray[np.float64]: ...
 
 def read_particles(
-    path: str | PathLike[str], reading: dict[str, Any]
-) -> tuple[dict[str, Any], list[tuple[str, str]]]: ...
+    path: str | PathLike[str], reading: dict[str, object]
+) -> tuple[dict[str, Any], Notes]: ...
 def table_particles(
-    positions: Floats | None,
-    columns: list[tuple[str, npt.NDArray[np.float64] | list[str]]],
-    edges: list[list[float]] | None,
-    atoms: bool,
-    reading: dict[str, Any],
-) -> tuple[dict[str, Any], list[tuple[str, str]]]: ...
+    table: Table, reading: dict[str, object]
+) -> tuple[dict[str, Any], Notes]: ...
 def png(pixels: npt.NDArray[np.uint8]) -> bytes: ...
 def save_picture(path: str | PathLike[str], pixels: npt.NDArray[np.uint8]) -> None: ...
 def save_hits(path: str | PathLike[str], size: tuple[int, int], hits: Columns) -> None: ...

@@ -53,6 +53,27 @@ class ReadOptions(TypedDict, total=False):
     """How often the periodic cell is drawn along each of its edges."""
 
 
+class FieldOptions(ReadOptions, total=False):
+    """How a file is read and what makes a field of it, by the names of the command line."""
+
+    sph: bool
+    """Masses, densities and smoothing lengths make the SPH interpolant; without densities neighbours do."""
+    support_per_h: float
+    """The support radius over the smoothing length h, with `sph`; what the kernel's source has when left out."""
+    particle_mass: float
+    """The mass of every particle, with `sph`, where there are densities and no masses."""
+    preset: str
+    """Another program's surface: `quicksurf`, `molmap`, `gaussian-surface` or `splashsurf`."""
+    resolution: float
+    """The resolution of `molmap`, ångströms."""
+    radius_offset: float
+    """What `gaussian-surface` increases radii by, ångströms."""
+    smoothness: float
+    """The smoothness of `gaussian-surface`; 1.5 when left out."""
+    smoothing_length: float
+    """The smoothing length of `splashsurf`, in particle radii; 2 when left out."""
+
+
 class Particles:
     """Particles, in arrays that are kept as they are: float32 or float64 of any strides is not copied.
 
@@ -111,6 +132,9 @@ class Particles:
     def read(cls, path: str | PathLike[str], **options: Unpack[ReadOptions]) -> Particles:
         """The particles of a file: PDB, mmCIF, GRO, XYZ, CSV, LAMMPS, VTK, PLY, NumPy and others.
 
+        A scene file (`.toml`) says how its particles make a surface, and so do formulas of simulations and of
+        other programs: both are for `Surface.read`.
+
         What the reader says is in `notes`; what it has guessed, left out or changed is warned of too, as
         a `ReaderWarning`.
 
@@ -121,7 +145,7 @@ class Particles:
         OSError
             When the file cannot be read.
         """
-        keywords = named("option", options, ReadOptions)
+        keywords = reading(options, ReadOptions)
         return cls._read(f"{path}: ", *_metaball.read_particles(path, keywords))
 
     @classmethod
@@ -145,15 +169,8 @@ class Particles:
         ValueError
             When its columns cannot be used: names them.
         """
-        table = table_of(thing)
-        arguments, notes = _metaball.table_particles(
-            table.positions,
-            table.columns,
-            table.edges,
-            table.atoms,
-            named("option", options, ReadOptions),
-        )
-        return cls._read("", arguments, notes)
+        keywords = reading(options, ReadOptions)
+        return cls._read("", *_metaball.table_particles(table_of(thing), keywords))
 
     @classmethod
     def _read(
@@ -161,10 +178,7 @@ class Particles:
     ) -> Particles:
         """What a reader has made, with what it says."""
         particles = cls(**arguments)
-        particles.notes = tuple(text for _, text in notes)
-        for kind, text in notes:
-            if kind != "read":
-                warnings.warn(f"{source}{text}", ReaderWarning, stacklevel=3)
+        particles.notes = told(source, notes)
         return particles
 
     def __len__(self) -> int:
@@ -172,6 +186,19 @@ class Particles:
 
     def __repr__(self) -> str:
         return f"<metaball.Particles: {len(self)}>"
+
+
+def reading(options: Mapping[str, object], known: type[ReadOptions]) -> dict[str, object]:
+    """The options of reading as the library takes them, all of them."""
+    return {**dict.fromkeys(FieldOptions.__annotations__), **named("option", options, known)}
+
+
+def told(source: str, notes: list[tuple[str, str]]) -> tuple[str, ...]:
+    """What a reader says; the caller's caller is warned of what was not simply read."""
+    for kind, text in notes:
+        if kind != "read":
+            warnings.warn(f"{source}{text}", ReaderWarning, stacklevel=4)
+    return tuple(text for _, text in notes)
 
 
 def named(what: str, given: Mapping[str, object], known: type[object]) -> dict[str, object]:

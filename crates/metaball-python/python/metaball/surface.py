@@ -15,8 +15,9 @@ from .camera import Camera, Point
 from .comparison import Comparison, Score, Truth
 from .hits import Hits
 from .image import Image
-from .particles import Particles, named
+from .particles import FieldOptions, Particles, named, reading, told
 from .progress import Progress, bar
+from .tables import table_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -86,14 +87,91 @@ class Surface:
         When a particle, the kernel or the threshold cannot be used: names it.
     """
 
-    __slots__ = ("_native",)
+    __slots__ = ("_native", "notes")
 
     _native: _metaball.Surface
+    notes: tuple[str, ...]
+    """What the reader of its file has said."""
 
     def __init__(
         self, particles: Particles, kernel: str = "quartic", threshold: float = 0.25
     ) -> None:
         self._native = _metaball.Surface(particles, kernel, threshold)
+        self.notes = particles.notes
+
+    @classmethod
+    def read(
+        cls,
+        path: str | PathLike[str],
+        kernel: str | None = None,
+        threshold: float | None = None,
+        **options: Unpack[FieldOptions],
+    ) -> Surface:
+        """The surface of a file: a scene (`.toml`), with its camera, or particles in any format.
+
+        It is the surface that `metaball render` draws of the same file with the same options. What the reader
+        has guessed, left out or changed is warned of, as a `ReaderWarning`.
+
+        Parameters
+        ----------
+        path
+            The file.
+        kernel, threshold
+            Others than the scene file or the formula has, or than `quartic` and 0.25.
+        options
+            How it is read, and what makes a field of it: `sph=True`, `preset="quicksurf"` and so on.
+
+        Raises
+        ------
+        ValueError
+            When the file holds something else than was needed, or an option cannot be used: names it.
+        OSError
+            When the file cannot be read.
+        """
+        keywords = reading(options, FieldOptions)
+        read = _metaball.Surface.read(path, keywords, kernel, threshold)
+        return cls._told(f"{path}: ", *read)
+
+    @classmethod
+    def of(
+        cls,
+        thing: object,
+        kernel: str | None = None,
+        threshold: float | None = None,
+        **options: Unpack[FieldOptions],
+    ) -> Surface:
+        """The surface of what `Particles.of` takes, as a file with the same columns would make it.
+
+        A fluid in memory, say: `Surface.of({"x": x, "y": y, "z": z, "mass": m, "density": rho, "h": h},
+        sph=True)`.
+
+        Parameters
+        ----------
+        thing
+            What holds the particles.
+        kernel, threshold
+            Others than the formula has, or than `quartic` and 0.25.
+        options
+            As for `read`.
+
+        Raises
+        ------
+        TypeError
+            When the object is of another kind.
+        ValueError
+            When its columns or an option cannot be used: names them.
+        """
+        keywords = reading(options, FieldOptions)
+        return cls._told("", *_metaball.Surface.of_table(table_of(thing), keywords, kernel, threshold))
+
+    @classmethod
+    def _told(
+        cls, source: str, native: _metaball.Surface, notes: list[tuple[str, str]]
+    ) -> Surface:
+        """What was made of a file or a table, with what the reader says."""
+        surface = cls.__new__(cls)
+        surface._native, surface.notes = native, told(source, notes)
+        return surface
 
     def render(
         self,
@@ -106,7 +184,7 @@ class Surface:
         progress: Progress = False,
         **light: Unpack[LightOptions],
     ) -> Image:
-        """A picture, the same bytes on every machine. Ctrl-C ends it, after the sixteen rows that are drawn.
+        """A picture, the same bytes on every machine. Ctrl-C ends it.
 
         Parameters
         ----------
@@ -347,16 +425,23 @@ class Surface:
         )
 
     def __reduce__(self) -> tuple[object, ...]:
-        arguments, origin = self._native.state()
-        return _restored, (arguments, self.kernel, self.threshold, origin)
+        arguments, *rest = self._native.state()
+        return _restored, (arguments, self.notes, self.kernel, self.threshold, *rest)
 
 
 def _restored(
-    arguments: dict[str, npt.ArrayLike], kernel: str, threshold: float, origin: Point
+    arguments: dict[str, npt.ArrayLike],
+    notes: tuple[str, ...],
+    kernel: str,
+    threshold: float,
+    origin: Point,
+    camera: _metaball.CameraNumbers,
 ) -> Surface:
     """A surface as it was pickled."""
     surface = Surface.__new__(Surface)
-    surface._native = _metaball.Surface.restored(Particles(**arguments), kernel, threshold, origin)
+    surface.notes = notes
+    particles = Particles(**arguments)
+    surface._native = _metaball.Surface.restored(particles, kernel, threshold, origin, camera)
     return surface
 
 

@@ -28,7 +28,7 @@ use crate::adapter::Certain;
 use crate::draw::on_cpu;
 use crate::light::Lighting;
 use crate::summary::Summary;
-use crate::{DrawOptions, Error};
+use crate::{DrawOptions, Error, is_trouble};
 
 /// What all frames of a run have in common.
 pub(super) struct Job<'a> {
@@ -118,7 +118,10 @@ impl Job<'_> {
                 let Ready { number, scene, mut renderer, load, build } = prepared?;
                 let waited = start.elapsed();
                 let outcome = match scene {
-                    Err(error) => FrameOutcome::Broken { error: chain(error.as_ref()) },
+                    Err(error) => FrameOutcome::Broken {
+                        error: chain(error.as_ref()),
+                        trouble: is_trouble(error.as_ref()),
+                    },
                     Ok(scene) => {
                         let Drawn { image, times, asked_again } = self
                             .picture(&scene, &mut renderer, &mut targets)

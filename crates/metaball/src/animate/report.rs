@@ -74,6 +74,8 @@ pub enum FrameOutcome {
     Broken {
         /// Why, with all causes.
         error: String,
+        /// Whether it is worth while to [try again](crate::is_trouble).
+        trouble: bool,
     },
 }
 
@@ -137,8 +139,16 @@ impl AnimationReport {
     pub fn broken(&self) -> impl Iterator<Item = (u32, &str)> {
         self.frames.iter().filter_map(|frame| match &frame.outcome {
             FrameOutcome::Drawn { .. } => None,
-            FrameOutcome::Broken { error } => Some((frame.number, error.as_str())),
+            FrameOutcome::Broken { error, .. } => Some((frame.number, error.as_str())),
         })
+    }
+
+    /// Whether a frame is missing by [trouble of the machine](crate::is_trouble).
+    pub fn is_trouble(&self) -> bool {
+        let is_trouble = |frame: &FrameReport| {
+            matches!(frame.outcome, FrameOutcome::Broken { trouble: true, .. })
+        };
+        self.frames.iter().any(is_trouble)
     }
 }
 

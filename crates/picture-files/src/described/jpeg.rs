@@ -5,6 +5,7 @@ use std::path::Path;
 
 use metaball_core::Image;
 
+use super::WholePicture;
 use crate::PictureFileError;
 use crate::jpeg::encode_jpeg;
 
@@ -32,17 +33,18 @@ fn comment(text: &[u8]) -> Vec<u8> {
     [&COMMENT, &length.to_be_bytes(), text].concat()
 }
 
-/// The text in a whole file.
-pub(super) fn text_in(path: &Path) -> Option<String> {
+/// The picture in a whole file.
+pub(super) fn whole(path: &Path) -> Option<WholePicture> {
     let jpeg = fs::read(path).ok()?;
     if !jpeg.ends_with(&END) {
         return None;
     }
-    image::load_from_memory_with_format(&jpeg, image::ImageFormat::Jpeg).ok()?;
+    let image = image::load_from_memory_with_format(&jpeg, image::ImageFormat::Jpeg).ok()?;
     let comments = Segments::of(&jpeg).filter(|segment| segment.marker == COMMENT);
     let text: Vec<u8> =
         comments.flat_map(|comment| &jpeg[comment.start..comment.end]).copied().collect();
-    String::from_utf8(text).ok().filter(|text| !text.is_empty())
+    let description = String::from_utf8(text).ok().filter(|text| !text.is_empty());
+    Some(WholePicture { size: (image.width(), image.height()), description })
 }
 
 /// What stands before the first scan.
