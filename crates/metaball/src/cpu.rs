@@ -1,13 +1,14 @@
 //! Pictures on the CPU, band by band: rays made on the host, traced by fbvh's own tracer.
 
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use fbvh::{ClippedTracer, Tracer, Tree};
 use metaball_core::shade::{CpuPicture, Shader};
 use metaball_core::{Clip, Hit, Scene, ValueRange, View};
 use metaball_light::DepthCue;
 use metaball_light::cpu::PathTracer;
+use web_time::Instant;
 
 use crate::band::{Band, Planes};
 use crate::light::Lighting;
