@@ -38,8 +38,12 @@ pub(crate) enum Act {
     Along { axis: DVec3 },
     /// Gives up what is being read or built.
     Cancel,
-    /// Another kernel by its name, or another threshold; the scene's own where they are left out.
-    Field { kernel: Option<String>, threshold: Option<f32> },
+    /// Another kernel, by its name.
+    Kernel { name: String },
+    /// Another threshold.
+    Threshold { value: f32 },
+    /// The scene's own kernel and threshold.
+    OwnField,
     /// Reads the file again, otherwise.
     Read { radius_scale: Option<f32>, color_by: Option<String>, frame: Option<u32> },
     /// Shows something else of it.
@@ -96,11 +100,16 @@ impl Act {
             Self::Home => viewer.go_home(),
             Self::Along { axis } => pose(front, |pose| pose.seen_from(axis)),
             Self::Cancel => viewer.cancel(),
-            Self::Field { kernel, threshold } => {
-                let named = |name: &String| Kernel::all().find(|it| it.to_string() == *name);
-                let kernel = kernel.as_ref().and_then(named);
-                viewer.set_field(Overrides { kernel, threshold, ..Overrides::default() });
+            Self::Kernel { name } => {
+                let kernel = Kernel::all().find(|kernel| kernel.to_string() == name);
+                let field = *viewer.field();
+                viewer.set_field(Overrides { kernel, exponent: None, ..field });
             }
+            Self::Threshold { value } => {
+                let field = *viewer.field();
+                viewer.set_field(Overrides { threshold: Some(value), ..field });
+            }
+            Self::OwnField => viewer.set_field(Overrides::default()),
             Self::Read { radius_scale, color_by, frame } => {
                 let color_by = color_by.as_deref().map(str::parse::<ColorBy>).transpose();
                 match color_by {

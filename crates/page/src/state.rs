@@ -1,5 +1,7 @@
 //! What the panel of the page shows, as its worker tells it.
 
+use std::ptr;
+
 use glam::{DVec3, Vec3};
 use metaball::{NoteKind, legend_svg};
 use metaball_core::Kernel;
@@ -61,6 +63,8 @@ struct PictureState {
     height: u32,
     /// `coarse`, `sharp` or `lit`.
     stage: &'static str,
+    /// Whether it is of the latest model, camera and size.
+    is_latest: bool,
     samples: u32,
     ms: f64,
     rate: Option<f64>,
@@ -96,14 +100,20 @@ impl State {
             },
             failure: failure.map(str::to_owned),
             scene: Scene::of(front),
-            picture: viewer
-                .painting()
-                .map(|painting| PictureState { rate: viewer.rate(), ..PictureState::of(painting) }),
+            picture: viewer.painting().map(|painting| PictureState::of(painting, front)),
             points: front.picks.iter().map(Point::of).collect(),
             distance,
             light: Light::of(&viewer.look().light),
             command: viewer.command_line().map(|line| line.to_string()),
         }
+    }
+}
+
+#[cfg(test)]
+impl State {
+    /// What went wrong last.
+    pub(crate) fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
     }
 }
 
@@ -147,19 +157,23 @@ impl Scene {
 }
 
 impl PictureState {
-    fn of(painting: &Painting) -> Self {
+    fn of(painting: &Painting, front: &Front) -> Self {
+        let (viewer, view) = (&front.viewer, &painting.view);
+        let is_of_model = viewer.model().is_some_and(|model| ptr::eq(model, &*painting.model));
+        let is_of_size = (view.width(), view.height()) == front.size;
         let (stage, samples) = match painting.stage {
             Stage::Coarse => ("coarse", 0),
             Stage::Sharp => ("sharp", 0),
             Stage::Lit(samples) => ("lit", samples),
         };
         Self {
-            width: painting.view.width(),
-            height: painting.view.height(),
+            width: view.width(),
+            height: view.height(),
             stage,
+            is_latest: is_of_model && is_of_size && viewer.camera() == Some(*view.camera()),
             samples,
             ms: 1e3 * painting.time.as_secs_f64(),
-            rate: None,
+            rate: viewer.rate(),
             undecided: painting.undecided,
         }
     }

@@ -7,7 +7,7 @@ use viewer::{Awaited, Crew, Task, Wake};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen_futures::spawn_local;
 
-#[wasm_bindgen(module = "/site/turns.js")]
+#[wasm_bindgen(module = "/src/turns.js")]
 extern "C" {
     /// Awaited until what has happened meanwhile is dealt with.
     async fn turn();

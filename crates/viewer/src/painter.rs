@@ -78,7 +78,7 @@ pub(crate) struct Painter {
 
 impl Painter {
     /// What is drawn, or why it cannot be, goes to `post`.
-    pub(crate) fn new(crew: Arc<dyn Crew>, post: Post<Result<Painting, String>>) -> Self {
+    pub(crate) fn new(crew: &Arc<dyn Crew>, post: Post<Result<Painting, String>>) -> Self {
         let orders = Arc::new(Mailbox::new());
         let (own, taken) = (crew.clone(), orders.clone());
         crew.begin(Box::new(move || {

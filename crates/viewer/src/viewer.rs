@@ -134,7 +134,7 @@ impl Viewer {
             given_up: 0,
             latest: None,
             builder: Builder::new(&*crew, built.post.clone()),
-            painter: Painter::new(crew.clone(), painted.post.clone()),
+            painter: Painter::new(&crew, painted.post.clone()),
             crew,
             built,
             painted,

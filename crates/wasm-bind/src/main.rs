@@ -1,5 +1,5 @@
-//! Makes the WebAssembly of the page callable from JavaScript: `bind page.wasm FOLDER`. It is the library of
-//! wasm-bindgen's own program, which takes longer to compile.
+//! Makes WebAssembly callable from JavaScript: `wasm-bind FILE FOLDER`. It is the library of wasm-bindgen's
+//! own program, which takes longer to compile.
 
 use std::env;
 
@@ -11,5 +11,6 @@ fn main() -> Result<()> {
     let [wasm, folder] = arguments.as_slice() else {
         bail!("arguments: needed a file of WebAssembly and a folder, found {}", arguments.len());
     };
-    Bindgen::new().input_path(wasm).web(true)?.typescript(false).generate(folder)
+    let mut bindgen = Bindgen::new();
+    bindgen.web(true)?.typescript(false).remove_name_section(true).input_path(wasm).generate(folder)
 }

@@ -12,13 +12,7 @@ export function turn() {
   });
 }
 
-let listener = () => {};
-
-// Calls this when there is something to be shown.
-export function onWake(callback) {
-  listener = callback;
-}
-
+// Says that there is something to be shown.
 export function wake() {
-  listener();
+  self.wake();
 }
