@@ -67,7 +67,7 @@ onmessage = ({ data }) => {
 };
 
 try {
-  await init();
+  await init({ module_or_path: new URL("page_bg.wasm", import.meta.url) });
   page = new Page();
   attempt(() => {
     early.forEach(obey);
