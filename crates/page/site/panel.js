@@ -112,7 +112,8 @@ function tellPoints({ points, distance }) {
   }
   const last = points.at(-1);
   if (last) {
-    told.push(element("p", `${last.balls} balls make it:`), element("table", "", shares(last)));
+    const makers = last.balls === 1 ? "One ball makes it:" : `${last.balls} balls make it:`;
+    told.push(element("p", makers), element("table", "", shares(last)));
     const others = last.balls - last.shares.length;
     if (others > 0) {
       told.push(element("p", `and ${others} others`));

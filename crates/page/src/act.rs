@@ -82,7 +82,7 @@ pub(crate) struct Light {
 
 impl Act {
     /// Does it.
-    pub(crate) fn is_done_by(self, front: &mut Front) {
+    pub(crate) fn perform(self, front: &mut Front) {
         let Front { viewer, hand, picks, held, .. } = front;
         match self {
             Self::Resize { width, height } => front.size = (width.max(1), height.max(1)),

@@ -68,7 +68,7 @@ impl Front {
     /// Does what a user has done, in JSON.
     pub(crate) fn act(&mut self, json: &str) -> Result<(), serde_json::Error> {
         self.refusal = None;
-        serde_json::from_str::<Act>(json)?.is_done_by(self);
+        serde_json::from_str::<Act>(json)?.perform(self);
         Ok(())
     }
 

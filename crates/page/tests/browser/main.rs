@@ -44,7 +44,7 @@ fn differences(one: &[u8], other: &[u8]) -> usize {
 #[test]
 #[ignore = "needs a page (PAGE_FOLDER) and chromedriver: cargo xtask web --test"]
 fn the_canvas_is_what_render_draws() {
-    let mut stage = Stage::open();
+    let stage = Stage::open();
     let none = LightOptions::default();
 
     let molecule = read(MOLECULE);
