@@ -11,6 +11,7 @@ mod packages;
 mod python;
 mod run;
 mod test;
+mod web;
 
 use std::process::ExitCode;
 
@@ -18,6 +19,8 @@ const HELP: &str = "\
 cargo xtask test                 formatting, lints, all tests, packages, documentation, the Python
                                  package
 cargo xtask python               of these the Python package alone: its wheel, pytest and mypy
+cargo xtask web                  makes the viewer for browsers, a folder for any web server: out/web;
+                                 with --test it is opened in Chromium and held against the library
 cargo xtask bench [...]          times the criterion benches, or those that a filter names;
                                  --against COMMIT builds that commit beside and times both in
                                  turn, --rounds N (5) times; samples go to out/bench/samples.csv
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
         Some("device") => device::run(&arguments[1..]),
         Some("test") => test::run(&arguments[1..]),
         Some("python") => python::test(),
+        Some("web") => web::run(&arguments[1..]),
         Some("help" | "--help" | "-h") => {
             run::say(HELP);
             run::metaball(&["--help".to_owned()])

@@ -104,6 +104,8 @@ fn forget_packed() {
 fn steps(gpu: Option<(&'static str, &'static str)>) -> Vec<Step> {
     let mut package = vec!["package", "--quiet", "--allow-dirty", "--target-dir", PACKAGES];
     package.extend(PUBLISHED.into_iter().flat_map(|name| ["--package", name]));
+    // A program of one call, which the page is made with, and a minute of other people's code.
+    let tests = ["test", "--workspace", "--exclude=wasm-bind", "--all-features", "--no-fail-fast"];
     let mut own =
         vec!["test", "--quiet", "--manifest-path", OWN_METHOD, "--target-dir", TARGET, "--"];
     own.extend(gpu.map(|_| "--include-ignored"));
@@ -120,7 +122,7 @@ fn steps(gpu: Option<(&'static str, &'static str)>) -> Vec<Step> {
             &["clippy", "--workspace", "--all-targets", "--all-features", "--", "-Dwarnings"],
             &[],
         ),
-        step("tests", &["test", "--workspace", "--all-features", "--no-fail-fast"], gpu.as_slice()),
+        step("tests", &tests, gpu.as_slice()),
         step("a method of one's own", &own, gpu.as_slice()),
         step(
             "documentation",

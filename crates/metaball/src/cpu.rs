@@ -1,13 +1,14 @@
 //! Pictures on the CPU, band by band: rays made on the host, traced by fbvh's own tracer.
 
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use fbvh::{BuildError, ClippedTracer, Tracer, Tree};
 use metaball_core::shade::{CpuPicture, Shader};
 use metaball_core::{Clip, Hit, Scene, ValueRange, View};
 use metaball_light::DepthCue;
 use metaball_light::cpu::PathTracer;
+use web_time::Instant;
 
 use crate::band::{Band, Planes};
 use crate::interruptible::{GoesOn, Interruptible};
@@ -249,7 +250,7 @@ mod tests {
     fn drawn(scene: &Scene, view: &View, options: &DrawOptions, pixels: u32) -> Band {
         let built = Built::new(&options.method, scene).expect("built");
         let tracer = built.tracer(scene, &options.clip).expect("a tracer");
-        let tracer = Interruptible::never(&tracer);
+        let tracer = Interruptible::never(tracer);
         let lighting = options.lighting(view, scene).expect("light");
         let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref());
         let painter = painter.expect("a painter");

@@ -185,7 +185,7 @@ pub(crate) fn draw_built(
     (goes_on, mut progress): (GoesOn<'_>, impl FnMut(Progress)),
 ) -> Result<Drawing, Error> {
     let tracer = built.tracer(scene, &options.clip_of(scene))?;
-    let tracer = Interruptible::new(&tracer, goes_on);
+    let tracer = Interruptible::new(tracer, goes_on);
     let painter = Painter::new(&tracer, scene, view, options, lighting)?;
     let planes = painter.planes(true, true);
     let (stage, of, resumed) = (Stage::Drawing, view.height(), 0);

@@ -170,7 +170,7 @@ impl Job<'_> {
         let lighting = options.lighting(view, scene)?;
         let built = Built::new(&options.method, scene)?;
         let tracer = built.tracer(scene, &options.clip_of(scene))?;
-        let tracer = Interruptible::never(&tracer);
+        let tracer = Interruptible::never(tracer);
         let painter = Painter::new(&tracer, scene, view, options, lighting.as_ref())?;
         let planes = painter.planes(outputs.hits.is_some(), outputs.light.is_some());
         let description = Description::new(scene, view, options, planes);

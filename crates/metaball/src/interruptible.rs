@@ -8,26 +8,33 @@ use metaball_core::{Hit, HostTracer, Ray, RayQuery, Scene, SurfaceHit};
 /// A tracer as long as its answers are wanted. Later it leaves rays unanswered, so that whatever waits for
 /// them ends soon, with a picture of nothing that must not be shown.
 pub(crate) struct Interruptible<'a> {
-    tracer: &'a ClippedTracer<'a, Scene>,
+    tracer: Inner<'a>,
     goes_on: GoesOn<'a>,
 }
+
+type Inner<'a> = ClippedTracer<'a, Scene>;
 
 /// Whether a computation is still wanted; asked on any thread. Once it is not, it stays so.
 pub(crate) type GoesOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
 impl<'a> Interruptible<'a> {
-    pub(crate) fn new(tracer: &'a ClippedTracer<'a, Scene>, goes_on: GoesOn<'a>) -> Self {
+    pub(crate) fn new(tracer: Inner<'a>, goes_on: GoesOn<'a>) -> Self {
         Self { tracer, goes_on }
     }
 
     /// One whose answers are always wanted.
-    pub(crate) fn never(tracer: &'a ClippedTracer<'a, Scene>) -> Self {
+    pub(crate) fn never(tracer: Inner<'a>) -> Self {
         Self::new(tracer, &|| true)
     }
 
     /// Whether its answers are wanted.
     pub(crate) fn goes_on(&self) -> bool {
         (self.goes_on)()
+    }
+
+    /// [`ClippedTracer::first_hit`].
+    pub(crate) fn first_hit(&self, ray: &Ray) -> Hit {
+        self.tracer.first_hit(ray)
     }
 
     /// [`ClippedTracer::picture_hits`]; they are answered all together.
@@ -38,11 +45,9 @@ impl<'a> Interruptible<'a> {
 
 impl fmt::Debug for Interruptible<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_tuple("Interruptible").field(self.tracer).finish()
+        formatter.debug_tuple("Interruptible").field(&self.tracer).finish()
     }
 }
-
-type Inner<'a> = ClippedTracer<'a, Scene>;
 
 impl<'a> HostTracer for Interruptible<'a> {
     type Scratch = <Inner<'a> as HostTracer>::Scratch;

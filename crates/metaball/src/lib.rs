@@ -85,7 +85,7 @@ pub use model::{Model, Shown, Solid};
 pub use particle_files::{
     AnimatedScene, BoxError, Cell, ColorBy, Formula, FormulaOptions, Legend, Loaded, Note,
     NoteKind, Notes, NumberedPath, Overrides, Preset, ReadOptions, Rule, Scale, Selection,
-    Sequence, Substance, Unit, inputs, load,
+    Sequence, Substance, Unit, inputs, load, load_bytes,
 };
 pub use summary::{Progress, Stage, Summary, Tally};
 pub use trouble::is_trouble;

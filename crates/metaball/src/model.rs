@@ -1,21 +1,23 @@
 //! A scene that is built once, and drawn and traced again and again on the CPU: what a window shows, and what
 //! Python holds.
 
-use std::ops::ControlFlow;
+use std::mem;
+use std::ops::Range;
 use std::time::Duration;
 
-use fbvh::{ClippedTracer, Tracer};
+use fbvh::Tracer;
 use glam::Vec3;
 use metaball_core::{Aabb, Camera, Clip, Hit, Image, Picture, Ray, Scene, ValueRange, View};
 use metaball_light::Film;
+use metaball_light::cpu::PathTracer;
 
 use crate::backend::Opened;
-use crate::band::{Band, bands};
+use crate::band::{Band, Planes, bands};
 use crate::cpu::{Built, Painter};
 use crate::draw::draw_built;
 use crate::interruptible::{GoesOn, Interruptible};
-use crate::light::DEPTH_CUE_WIDTH;
-use crate::summary::{Progress, asked};
+use crate::light::{DEPTH_CUE_WIDTH, Lighting};
+use crate::summary::Progress;
 use crate::{DrawOptions, Drawing, Error, LightOptions, Method};
 
 /// Pixels of a band: what is drawn between two questions whether to go on, some hundredths of a second.
@@ -25,7 +27,6 @@ const BAND_PIXELS: u32 = 1 << 15;
 /// for byte.
 ///
 /// ```
-/// use std::ops::ControlFlow;
 /// use metaball::{Camera, Clip, Method, Model, Picture, Scene, View};
 /// use metaball_core::{Kernel, Metaball};
 ///
@@ -35,8 +36,8 @@ const BAND_PIXELS: u32 = 1 << 15;
 /// let solid = model.cut(&Clip::default())?;
 /// for size in [16, 64] {
 ///     let view = View::new(camera, size, size)?;
-///     let shown = solid.draw(&view, Picture::Phong, || ControlFlow::Continue(()))?;
-///     assert!(shown.hits.iter().any(|hit| hit.is_hit()));
+///     let shown = solid.draw(&view, Picture::Phong)?.flatten().last();
+///     assert!(shown.is_some_and(|shown| shown.hits.iter().any(|hit| hit.is_hit())));
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -52,7 +53,7 @@ pub struct Model {
 #[derive(Debug)]
 pub struct Solid<'a> {
     model: &'a Model,
-    tracer: ClippedTracer<'a, Scene>,
+    tracer: Interruptible<'a>,
 }
 
 /// A picture, and what its rays found.
@@ -153,7 +154,8 @@ impl Model {
     /// When something is cut and the tree is not certified.
     pub fn cut(&self, clip: &Clip) -> Result<Solid<'_>, Error> {
         let clip = clip.clone().relative_to(self.scene.origin());
-        Ok(Solid { model: self, tracer: self.built.tracer(&self.scene, &clip)? })
+        let tracer = Interruptible::never(self.built.tracer(&self.scene, &clip)?);
+        Ok(Solid { model: self, tracer })
     }
 }
 
@@ -163,83 +165,106 @@ impl Solid<'_> {
         self.tracer.first_hit(ray)
     }
 
-    /// Draws a view without ray traced light. Between bands `watch` may break off.
+    /// Draws a view without ray traced light, a band at each step; the last step hands out the picture.
+    /// Between steps it may be broken off, or others may have their turn.
     ///
     /// # Errors
-    /// When only an adapter draws such a picture, or it was broken off.
-    pub fn draw(
-        &self,
-        view: &View,
+    /// When only an adapter draws such a picture.
+    pub fn draw<'s>(
+        &'s self,
+        view: &'s View,
         picture: Picture,
-        mut watch: impl FnMut() -> ControlFlow<()>,
-    ) -> Result<Shown, Error> {
+    ) -> Result<impl Iterator<Item = Option<Shown>> + 's, Error> {
         let options = self.options(picture);
-        let tracer = Interruptible::never(&self.tracer);
-        let painter = Painter::new(&tracer, &self.model.scene, view, &options, None)?;
+        let painter = Painter::new(&self.tracer, &self.model.scene, view, &options, None)?;
         let planes = painter.planes(true, false);
         let mut whole = Band::default();
-        for rows in bands(view, 0, BAND_PIXELS) {
-            asked(watch())?;
+        Ok(bands(view, 0, BAND_PIXELS).map(move |rows| {
+            let is_last = rows.end == view.height();
             whole.append(painter.band(rows, planes));
-        }
-        if !planes.pixels {
-            let range = ValueRange::of_distances(&whole.hits);
-            painter.finisher(range).finish(&mut whole);
-        }
-        let image = Image::new(view.width(), view.height(), &whole.pixels);
-        Ok(Shown { image, hits: whole.hits })
+            is_last.then(|| finished(&painter, planes, mem::take(&mut whole)))
+        }))
     }
 
-    /// Draws a view in ray traced light, and hands out the picture after each of its samples with the
-    /// number of those that are done; after the last it is the whole picture. Between bands `watch` may
-    /// break off.
+    /// Draws a view in ray traced light, a band of a sample at each step. The last step of a sample hands
+    /// out the number of samples that are done with the picture of them; after all of them that is the
+    /// whole picture. Between steps it may be broken off, or others may have their turn.
     ///
     /// # Errors
-    /// When an option makes no sense, the tree does not follow the rays that the light needs, or the
-    /// picture was broken off.
-    pub fn light(
-        &self,
-        view: &View,
+    /// When an option makes no sense, or the tree does not follow the rays that the light needs.
+    pub fn light<'s>(
+        &'s self,
+        view: &'s View,
         light: &LightOptions,
-        mut watch: impl FnMut() -> ControlFlow<()>,
-        mut show: impl FnMut(u32, Shown),
-    ) -> Result<(), Error> {
+    ) -> Result<impl Iterator<Item = Option<(u32, Shown)>> + 's, Error> {
         let scene = &self.model.scene;
         let lighting = light.lighting(view.camera(), scene)?;
-        let tracer = Interruptible::never(&self.tracer);
         let paths = lighting
-            .on_cpu(&tracer, scene, view)
+            .on_cpu(&self.tracer, scene, view)
             .ok_or_else(|| Error::unlit(&self.model.method))?;
-        let mut hits = Vec::new();
-        for rows in bands(view, 0, BAND_PIXELS) {
-            asked(watch())?;
-            hits.extend(paths.first_hits(rows).into_iter().map(|found| found.hit));
-        }
-        let mut sums = vec![Vec3::ZERO; view.pixels()];
-        for sample in 0..lighting.samples() {
-            let mut rest = sums.as_mut_slice();
-            for rows in bands(view, 0, BAND_PIXELS / 4) {
-                asked(watch())?;
-                let light = paths.rows_of_sample(rows, sample).light;
-                let (band, below) = rest.split_at_mut(light.len());
-                band.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
-                rest = below;
-            }
-            let done = sample + 1;
-            let light = sums.iter().map(|sum| sum / done as f32).collect();
-            let mut film = Film { width: view.width(), height: view.height(), light };
-            if let Some(strength) = lighting.depth_cue_strength() {
-                film.cue_depth(&hits, DEPTH_CUE_WIDTH, strength);
-            }
-            let pixels = lighting.develop(&film.light);
-            let image = Image::new(view.width(), view.height(), &pixels);
-            show(done, Shown { image, hits: hits.clone() });
-        }
-        Ok(())
+        let samples = lighting.samples();
+        let (hits, sums) = (Vec::new(), vec![Vec3::ZERO; view.pixels()]);
+        let mut gathering = Gathering { view, lighting, paths, hits, sums };
+        let first = bands(view, 0, BAND_PIXELS).map(|rows| (None, rows));
+        let lit = (0..samples).flat_map(|sample| {
+            bands(view, 0, BAND_PIXELS / 4).map(move |rows| (Some(sample), rows))
+        });
+        Ok(first.chain(lit).map(move |(sample, rows)| gathering.step(sample, rows)))
     }
 
     fn options(&self, picture: Picture) -> DrawOptions {
         DrawOptions { method: self.model.method.clone(), picture, ..DrawOptions::default() }
+    }
+}
+
+/// The picture of all bands.
+fn finished(painter: &Painter<'_>, planes: Planes, mut whole: Band) -> Shown {
+    if !planes.pixels {
+        let range = ValueRange::of_distances(&whole.hits);
+        painter.finisher(range).finish(&mut whole);
+    }
+    let Range { start, end } = whole.rows;
+    let height = end - start;
+    let width = (whole.pixels.len() / height as usize) as u32;
+    Shown { image: Image::new(width, height, &whole.pixels), hits: whole.hits }
+}
+
+/// Light that is being gathered.
+struct Gathering<'a> {
+    view: &'a View,
+    lighting: Lighting,
+    paths: PathTracer<'a, Interruptible<'a>>,
+    /// Of the rays through the middles of pixels.
+    hits: Vec<Hit>,
+    /// Of all samples so far.
+    sums: Vec<Vec3>,
+}
+
+impl Gathering<'_> {
+    /// Finds the first hits of some rows, or adds a sample's light to theirs; after its last row the picture
+    /// of all samples up to it.
+    fn step(&mut self, sample: Option<u32>, rows: Range<u32>) -> Option<(u32, Shown)> {
+        let Some(sample) = sample else {
+            self.hits.extend(self.paths.first_hits(rows).into_iter().map(|found| found.hit));
+            return None;
+        };
+        let (first, is_last) = (rows.start * self.view.width(), rows.end == self.view.height());
+        let light = self.paths.rows_of_sample(rows, sample).light;
+        let sums = &mut self.sums[first as usize..];
+        sums.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
+        is_last.then(|| (sample + 1, self.shown(sample + 1)))
+    }
+
+    /// The picture of so many samples.
+    fn shown(&self, samples: u32) -> Shown {
+        let (width, height) = (self.view.width(), self.view.height());
+        let light = self.sums.iter().map(|sum| sum / samples as f32).collect();
+        let mut film = Film { width, height, light };
+        if let Some(strength) = self.lighting.depth_cue_strength() {
+            film.cue_depth(&self.hits, DEPTH_CUE_WIDTH, strength);
+        }
+        let pixels = self.lighting.develop(&film.light);
+        Shown { image: Image::new(width, height, &pixels), hits: self.hits.clone() }
     }
 }
 
@@ -254,10 +279,6 @@ mod tests {
 
     fn bench() -> BenchScene {
         load("colors-100", &Overrides::default()).expect("known")
-    }
-
-    fn on_and_on() -> ControlFlow<()> {
-        ControlFlow::Continue(())
     }
 
     fn options(picture: Picture, light: LightOptions) -> DrawOptions {
@@ -276,7 +297,8 @@ mod tests {
             let solid = model.cut(&options.clip).expect("certified");
             let wanted = draw(&bench.scene, &bench.camera, &options).expect("drawn");
             for _ in 0..2 {
-                let shown = solid.draw(&view, picture, on_and_on).expect("drawn");
+                let steps = solid.draw(&view, picture).expect("a picture of the CPU");
+                let shown = steps.flatten().last().expect("drawn");
                 assert!(shown.image == wanted.image && shown.hits == wanted.hits, "{picture:?}");
             }
         }
@@ -298,11 +320,9 @@ mod tests {
             let options = options(Picture::Phong, light(samples));
             let wanted = draw(&bench.scene, &bench.camera, &options).expect("drawn");
             let solid = model.cut(&options.clip).expect("certified");
-            let mut shown = Vec::new();
-            solid
-                .light(&view, &options.light, on_and_on, |_, picture| shown.push(picture))
-                .expect("lit");
-            assert_eq!(shown.len(), samples as usize);
+            let steps = solid.light(&view, &options.light).expect("lit").flatten();
+            let (counts, mut shown): (Vec<_>, Vec<_>) = steps.unzip();
+            assert!(counts.into_iter().eq(1..=samples));
             let last = shown.pop().expect("a picture");
             assert!(last.image == wanted.image && last.hits == wanted.hits, "{samples}");
             assert!(shown.iter().all(|early| early.image != wanted.image));
@@ -310,21 +330,15 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_broken_off() {
+    fn steps_are_small() {
         let bench = bench();
         let view = View::new(bench.camera, 640, 480).expect("a size");
         let model = Model::new(bench.scene, &Method::default()).expect("built");
         let solid = model.cut(&Clip::default()).expect("whole");
-        let mut left = 2;
-        let mut watch = || {
-            left -= 1;
-            if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        let stopped = solid.draw(&view, Picture::Phong, &mut watch);
-        assert!(matches!(stopped, Err(Error::Interrupted)));
-        let light = LightOptions { shadows: true, ..LightOptions::default() };
-        let stopped = solid.light(&view, &light, || ControlFlow::Break(()), |_, _| panic!("drawn"));
-        assert!(matches!(stopped, Err(Error::Interrupted)));
+        let steps = solid.draw(&view, Picture::Phong).expect("a picture of the CPU");
+        let drawn: Vec<_> = steps.map(|shown| shown.is_some()).collect();
+        let (last, early) = drawn.split_last().expect("steps");
+        assert!(*last && early.len() > 5 && early.iter().all(|is_there| !is_there));
     }
 
     #[test]
@@ -336,9 +350,9 @@ mod tests {
         let solid = model.cut(&Clip::default()).expect("whole");
         let view = View::new(bench().camera, 4, 4).expect("a size");
         let water = LightOptions { refraction: Some(1.33), ..LightOptions::default() };
-        let error = solid.light(&view, &water, on_and_on, |_, _| ()).expect_err("refused");
+        let error = solid.light(&view, &water).err().expect("refused");
         assert!(error.to_string().starts_with("method: needed fbvh-certified"), "{error}");
-        let error = solid.draw(&view, Picture::Spheres, on_and_on).expect_err("refused");
+        let error = solid.draw(&view, Picture::Spheres).err().expect("refused");
         assert!(error.to_string().contains("needs a graphics adapter"), "{error}");
     }
 

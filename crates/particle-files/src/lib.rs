@@ -4,7 +4,7 @@
 //! path → bytes → text → [`Format`] → [`Table`] → [`Particles`] → [`Scene`](metaball_core::Scene).
 //!
 //! - [`load()`] goes all of it: a particle file, or a scene file that names one, becomes a scene and a
-//!   camera that shows it.
+//!   camera that shows it. [`load_bytes()`] does the same to bytes that are no file.
 //! - [`read()`] stops at the particles: positions with sizes and colours, before a kernel and a threshold
 //!   make a surface of them. [`parse()`] does the same to bytes that are no file.
 //! - A [`Formula`] makes the balls of SPH or of another program of particles, where one is asked for.
@@ -94,7 +94,7 @@ pub use formula::{
 };
 pub use framing::{framing, own_camera};
 pub use inputs::inputs;
-pub use load::{Loaded, load, load_table};
+pub use load::{Loaded, load, load_bytes, load_table};
 pub use notes::{Note, NoteKind, Notes};
 pub use numbered_path::NumberedPath;
 pub use options::{ReadOptions, Substance};

@@ -16,7 +16,7 @@ use crate::notes::Notes;
 use crate::options::ReadOptions;
 use crate::overrides::Overrides;
 use crate::particles::Particles;
-use crate::read::{particles_of, read};
+use crate::read::{parse, particles_of, read};
 use crate::scene_file::{SceneCamera, SceneFile};
 use crate::surface::Surface;
 use crate::table::Table;
@@ -50,19 +50,29 @@ pub fn load(
 ) -> Result<Loaded, LoadError> {
     let path = path.as_ref();
     let source = Source::of(path)?;
-    if file::ending(&source.particles).as_deref() == Some(PackedFrames::ENDING) {
-        let flaw = Flaw::needed("the particles of one scene", "those of many frames");
-        return Err(flaw.in_file(&path.display().to_string()));
+    source.is_of_one_scene(path)?;
+    source.load(path, options, overrides, |options| read(&source.particles, options))
+}
+
+/// The scene of the bytes of a particle file: [`load()`] without the file system. Errors name `name`, and its
+/// ending decides where the bytes could be of several formats.
+///
+/// # Errors
+/// As [`load()`]; and scene files are refused, since their particles are in another file.
+pub fn load_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    options: &ReadOptions,
+    overrides: &Overrides,
+) -> Result<Loaded, LoadError> {
+    let name = name.as_ref();
+    if file::ending(name).as_deref() == Some(SceneFile::ENDING) {
+        let found = "a scene file, whose particles are in another";
+        return Err(Flaw::needed("a file of particles", found).in_file(&named(name)));
     }
-    let options = &source.options(options);
-    let surface = source.surface(options)?.overridden(overrides)?;
-    let particles = read(&source.particles, options)?;
-    let loaded = loaded(particles, &surface, (options, overrides), |origin| {
-        let camera = source.camera.as_ref().map(|camera| camera.at(origin)).transpose();
-        camera.map_err(|flaw| flaw.in_file(&named(path)))
-    })?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Loaded { name, ..loaded })
+    let source = Source { particles: name.to_owned(), ..Source::default() };
+    source.is_of_one_scene(name)?;
+    source.load(name, options, overrides, |options| parse(name, bytes, options))
 }
 
 /// The scene of a table, which need not come from a file: [`load`] after the table. It has no name.
@@ -123,6 +133,33 @@ impl Source {
         Ok(Self { particles: path.to_owned(), ..Self::default() })
     }
 
+    /// Refuses a file of many frames.
+    fn is_of_one_scene(&self, path: &Path) -> Result<(), LoadError> {
+        if file::ending(&self.particles).as_deref() == Some(PackedFrames::ENDING) {
+            let flaw = Flaw::needed("the particles of one scene", "those of many frames");
+            return Err(flaw.in_file(&path.display().to_string()));
+        }
+        Ok(())
+    }
+
+    /// The scene of the particles that are read so. `path` is what was asked for.
+    fn load(
+        &self,
+        path: &Path,
+        options: &ReadOptions,
+        overrides: &Overrides,
+        read: impl FnOnce(&ReadOptions) -> Result<Particles, LoadError>,
+    ) -> Result<Loaded, LoadError> {
+        let options = &self.options(options);
+        let surface = self.surface(options)?.overridden(overrides)?;
+        let loaded = loaded(read(options)?, &surface, (options, overrides), |origin| {
+            let camera = self.camera.as_ref().map(|camera| camera.at(origin)).transpose();
+            camera.map_err(|flaw| flaw.in_file(&named(path)))
+        })?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Loaded { name, ..loaded })
+    }
+
     /// How its particles are read, where the options do not say otherwise.
     pub(crate) fn options(&self, options: &ReadOptions) -> ReadOptions {
         ReadOptions { formula: options.formula.or(&self.formula), ..options.clone() }
@@ -132,5 +169,26 @@ impl Source {
     pub(crate) fn surface(&self, options: &ReadOptions) -> Result<Surface, LoadError> {
         let formula = options.formula.formula()?;
         Ok(Surface { kernel: self.kernel, threshold: self.threshold, formula })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_loaded_as_their_file_is() {
+        let (options, overrides) = (ReadOptions::default(), Overrides::default());
+        let path = "examples/water.xyz";
+        let bytes = std::fs::read(path).expect("there");
+        let of_file = load(path, &options, &overrides).expect("legal");
+        let of_bytes = load_bytes("water.xyz", &bytes, &options, &overrides).expect("legal");
+        assert_eq!(of_bytes.scene, of_file.scene);
+        assert_eq!((of_bytes.camera, of_bytes.name), (of_file.camera, of_file.name));
+        let error = load_bytes("water.toml", b"particles = 'water.xyz'", &options, &overrides);
+        assert_eq!(
+            error.expect_err("of another file").to_string(),
+            "water.toml: needed a file of particles, found a scene file, whose particles are in another"
+        );
     }
 }

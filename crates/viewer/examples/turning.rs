@@ -9,7 +9,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use metaball::{BoxError, Clip, LightOptions, Overrides, Picture, ReadOptions, Viewpoint};
-use viewer::{Content, Look, Opener, Painting, Stage, Start, Subject, Viewer};
+use viewer::{Content, Look, Opener, Painting, Stage, Start, Subject, Threads, Viewer};
 
 const SIZE: (u32, u32) = (1280, 720);
 const TURNS: usize = 90;
@@ -37,7 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("scene, balls, first picture ms, pictures a second, columns of the last, sharp ms");
     for spec in std::env::args().skip(1) {
         let begin = Instant::now();
-        let mut viewer = Viewer::new(Arc::new(Bench), start(&spec), &(Arc::new(|| ()) as _));
+        let mut viewer =
+            Viewer::new(Arc::new(Bench), Arc::new(Threads), start(&spec), &(Arc::new(|| ()) as _));
         next(&mut viewer, false)?;
         let first = begin.elapsed();
         let mut times = Vec::new();

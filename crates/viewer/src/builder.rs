@@ -1,12 +1,12 @@
-//! The thread that makes scenes and builds their trees.
+//! The task that makes scenes and builds their trees.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
-use std::thread;
 
 use fbvh::Options;
 use metaball::{BoxError, Method, Model, Overrides};
 
+use crate::crew::Crew;
 use crate::events::Post;
 use crate::mailbox::Mailbox;
 use crate::subject::{Subject, told};
@@ -35,7 +35,7 @@ pub(crate) struct Built {
     pub(crate) model: Result<Arc<Model>, String>,
 }
 
-/// Builds on a thread of its own, until it is dropped.
+/// Builds beside all else, until it is dropped.
 #[derive(Debug)]
 pub(crate) struct Builder {
     orders: Arc<Mailbox<Order>>,
@@ -43,20 +43,10 @@ pub(crate) struct Builder {
 
 impl Builder {
     /// What comes of orders goes to `post`.
-    pub(crate) fn new(post: Post<Built>) -> Self {
+    pub(crate) fn new(crew: &dyn Crew, post: Post<Built>) -> Self {
         let orders = Arc::new(Mailbox::new());
-        let taken: Arc<Mailbox<Order>> = orders.clone();
-        thread::spawn(move || {
-            let mut kept = Kept::default();
-            while let Some(order) = taken.take() {
-                let model = kept.model(&order, order.frame).map_err(|error| told(&*error));
-                post.send(Built { order: order.clone(), model });
-                if let (Some(next), false) = (order.next, taken.calls()) {
-                    // What is wrong with it is said when it is asked for.
-                    let _ = kept.model(&order, next);
-                }
-            }
-        });
+        let taken = orders.clone();
+        crew.begin(Box::new(move || Box::pin(work(taken, post))));
         Self { orders }
     }
 
@@ -69,6 +59,18 @@ impl Builder {
 impl Drop for Builder {
     fn drop(&mut self) {
         self.orders.close();
+    }
+}
+
+async fn work(orders: Arc<Mailbox<Order>>, post: Post<Built>) {
+    let mut kept = Kept::default();
+    while let Some(order) = orders.take().await {
+        let model = kept.model(&order, order.frame).map_err(|error| told(&*error));
+        post.send(Built { order: order.clone(), model });
+        if let (Some(next), false) = (order.next, orders.calls()) {
+            // What is wrong with it is said when it is asked for.
+            let _ = kept.model(&order, next);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! What threads report, and how the window hears of it.
+//! What tasks report, and how the window hears of it.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 /// Called when there is something to be shown.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// A thread's end of a channel.
+/// A task's end of a channel.
 pub(crate) struct Post<T> {
     sender: Sender<T>,
     wake: Wake,

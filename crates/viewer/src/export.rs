@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::thread;
 
 use metaball::{
     Backend, Camera, DrawOptions, Error, Legend, Model, Outputs, Progress, Stage, Viewpoint,
     draw_to_files,
 };
 
+use crate::crew::Crew;
 use crate::events::Post;
 use crate::painter::Look;
 use crate::subject::told;
@@ -53,14 +53,16 @@ pub(crate) struct Job {
 }
 
 impl Exporting {
-    /// Begins on a thread of its own, which reports what it wrote, or why it did not.
-    pub(crate) fn new(job: Job, post: Post<Result<String, String>>) -> Self {
+    /// Begins beside all else; what is written is reported, or why it is not.
+    pub(crate) fn new(crew: &dyn Crew, job: Job, post: Post<Result<String, String>>) -> Self {
         let shared = Arc::new(Shared::default());
         let counts = shared.clone();
-        thread::spawn(move || {
-            let written = job.write(&counts, || post.wake());
-            post.send(written.map_err(|error| told(&error)));
-        });
+        crew.begin(Box::new(move || {
+            Box::pin(async move {
+                let written = job.write(&counts, || post.wake());
+                post.send(written.map_err(|error| told(&error)));
+            })
+        }));
         Self { shared }
     }
 

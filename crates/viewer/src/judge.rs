@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Receiver;
 use std::thread;
 
 use harness::score::{Finding, Judgement};
 use metaball::{Hit, Model, View};
 use metaball_core::reference::Oracle;
 
+use crate::Viewer;
 use crate::events::Post;
+use crate::painter::{Painting, Stage};
 
 /// Pixels that are judged between two reports.
 const BAND_PIXELS: u32 = 1 << 13;
@@ -34,19 +37,56 @@ pub struct Verdicts {
     pub largest_error: f64,
 }
 
-/// Some more judgements of the picture of that number.
-#[derive(Debug)]
-pub(crate) struct Judged {
-    pub(crate) picture: u64,
-    pub(crate) judgements: Vec<Judgement>,
+/// Holds the latest picture against the reference, when that is asked for.
+#[derive(Debug, Default)]
+pub struct Judge {
+    judging: Option<Judging>,
 }
 
 /// A picture that is being judged, or has been.
 #[derive(Debug)]
-pub(crate) struct Judging {
-    pub(crate) picture: u64,
-    pub(crate) verdicts: Verdicts,
+struct Judging {
+    /// Of the pictures of other rays, the one that it is ([`Viewer::sights`]).
+    sight: u64,
+    verdicts: Verdicts,
+    judged: Receiver<Vec<Judgement>>,
     stopped: Arc<AtomicBool>,
+}
+
+impl Judge {
+    /// Whether the latest picture can be judged: it is sharp, and of the whole solid, since the
+    /// reference knows no cuts.
+    pub fn is_able(viewer: &Viewer) -> bool {
+        let is_sharp = |it: &Painting| it.stage != Stage::Coarse;
+        viewer.look().clip.is_all() && viewer.painting().is_some_and(is_sharp)
+    }
+
+    /// Holds its rays against the reference, beside all else.
+    pub fn judge(&mut self, viewer: &Viewer) {
+        if let Some(painting) = viewer.painting().filter(|_| Self::is_able(viewer)) {
+            let (view, hits) = (painting.view.clone(), painting.shown.hits.clone());
+            let rays = (painting.model.clone(), view, hits);
+            self.judging = Some(Judging::new(viewer, rays));
+        }
+    }
+
+    /// Ends that, and forgets what has been found.
+    pub fn forget(&mut self) {
+        self.judging = None;
+    }
+
+    /// What has been found of the picture that is shown.
+    pub fn verdicts(&self) -> Option<&Verdicts> {
+        Some(&self.judging.as_ref()?.verdicts)
+    }
+
+    /// Takes what has been found; what was found of other rays does not hold for the latest picture.
+    pub(crate) fn hear(&mut self, viewer: &Viewer) {
+        self.judging.take_if(|judging| judging.sight != viewer.sights());
+        if let Some(Judging { verdicts, judged, .. }) = &mut self.judging {
+            judged.try_iter().for_each(|judgements| verdicts.add(judgements));
+        }
+    }
 }
 
 impl Verdicts {
@@ -61,7 +101,7 @@ impl Verdicts {
         self.missed + self.invented + self.wrong_front
     }
 
-    pub(crate) fn add(&mut self, judgements: Vec<Judgement>) {
+    fn add(&mut self, judgements: Vec<Judgement>) {
         for judgement in &judgements {
             match judgement.finding {
                 _ if judgement.ambiguous => self.ambiguous += 1,
@@ -78,12 +118,9 @@ impl Verdicts {
 }
 
 impl Judging {
-    /// Begins with the picture of that number, which is of a whole solid.
-    pub(crate) fn new(
-        picture: u64,
-        (model, view, hits): (Arc<Model>, View, Vec<Hit>),
-        post: Post<Judged>,
-    ) -> Self {
+    /// Begins with the latest picture, which is of a whole solid.
+    fn new(viewer: &Viewer, (model, view, hits): (Arc<Model>, View, Vec<Hit>)) -> Self {
+        let (post, judged) = Post::new(viewer.wake().clone());
         let stopped = Arc::new(AtomicBool::new(false));
         let size = (view.width(), view.height());
         let verdicts = Verdicts { size, ..Verdicts::default() };
@@ -100,10 +137,10 @@ impl Judging {
                 let truths = oracle.first_hits(&rays);
                 let judgements =
                     truths.iter().zip(hits).map(|(truth, hit)| Judgement::new(truth, hit));
-                post.send(Judged { picture, judgements: judgements.collect() });
+                post.send(judgements.collect());
             }
         });
-        Self { picture, verdicts, stopped }
+        Self { sight: viewer.sights(), verdicts, judged, stopped }
     }
 }
 

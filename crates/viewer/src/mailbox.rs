@@ -1,43 +1,47 @@
-//! Orders for a thread, of which only the latest counts.
+//! Orders for a task, of which only the latest counts.
 
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::future::poll_fn;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::task::{Context, Poll, Waker};
 
 /// Holds the latest order that nobody has taken.
 #[derive(Debug)]
-pub(crate) struct Mailbox<T> {
-    state: Mutex<State<T>>,
-    changed: Condvar,
-}
+pub(crate) struct Mailbox<T>(Mutex<State<T>>);
 
 #[derive(Debug)]
 struct State<T> {
     order: Option<T>,
     closed: bool,
+    /// The one task that waits for an order.
+    waits: Option<Waker>,
 }
 
 impl<T> Mailbox<T> {
     pub(crate) fn new() -> Self {
-        let state = Mutex::new(State { order: None, closed: false });
-        Self { state, changed: Condvar::new() }
+        Self(Mutex::new(State { order: None, closed: false, waits: None }))
     }
 
     /// Puts an order in the place of the one that is there.
     pub(crate) fn put(&self, order: T) {
-        self.state().order = Some(order);
-        self.changed.notify_one();
+        self.change(|state| state.order = Some(order));
     }
 
     /// Takes the order that is there, or waits for one; `None` when there will be none any more.
-    pub(crate) fn take(&self) -> Option<T> {
+    pub(crate) async fn take(&self) -> Option<T> {
+        poll_fn(|context| self.poll(context)).await
+    }
+
+    fn poll(&self, context: &Context<'_>) -> Poll<Option<T>> {
         let mut state = self.state();
-        loop {
-            if state.closed {
-                return None;
+        if state.closed {
+            return Poll::Ready(None);
+        }
+        match state.order.take() {
+            Some(order) => Poll::Ready(Some(order)),
+            None => {
+                state.waits = Some(context.waker().clone());
+                Poll::Pending
             }
-            if let Some(order) = state.order.take() {
-                return Some(order);
-            }
-            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
@@ -54,13 +58,23 @@ impl<T> Mailbox<T> {
 
     /// Ends whoever waits.
     pub(crate) fn close(&self) {
-        self.state().closed = true;
-        self.changed.notify_all();
+        self.change(|state| state.closed = true);
+    }
+
+    fn change(&self, change: impl FnOnce(&mut State<T>)) {
+        let waits = {
+            let mut state = self.state();
+            change(&mut state);
+            state.waits.take()
+        };
+        if let Some(waker) = waits {
+            waker.wake();
+        }
     }
 
     /// No code that holds the lock can panic.
     fn state(&self) -> MutexGuard<'_, State<T>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -68,6 +82,8 @@ impl<T> Mailbox<T> {
 mod tests {
     use std::sync::Arc;
     use std::thread;
+
+    use pollster::block_on;
 
     use super::*;
 
@@ -77,7 +93,7 @@ mod tests {
         mailbox.put(1);
         mailbox.put(2);
         assert!(mailbox.calls());
-        assert_eq!(mailbox.take(), Some(2));
+        assert_eq!(block_on(mailbox.take()), Some(2));
         assert!(!mailbox.calls());
     }
 
@@ -86,18 +102,18 @@ mod tests {
         let mailbox = Arc::new(Mailbox::<u32>::new());
         let waits = {
             let mailbox = mailbox.clone();
-            thread::spawn(move || mailbox.take())
+            thread::spawn(move || block_on(mailbox.take()))
         };
         mailbox.put(7);
         assert_eq!(waits.join().expect("no panic"), Some(7));
         let waits = {
             let mailbox = mailbox.clone();
-            thread::spawn(move || mailbox.take())
+            thread::spawn(move || block_on(mailbox.take()))
         };
         mailbox.close();
         assert_eq!(waits.join().expect("no panic"), None);
         mailbox.put(8);
         assert!(mailbox.calls() && mailbox.is_closed());
-        assert_eq!(mailbox.take(), None);
+        assert_eq!(block_on(mailbox.take()), None);
     }
 }

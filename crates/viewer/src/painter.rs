@@ -1,14 +1,14 @@
-//! The thread that draws: coarse while the camera moves, sharp when it rests, then light.
+//! The task that draws: coarse while the camera moves, sharp when it rests, then light.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use metaball::{
     Camera, Clip, Error, Hit, LightOptions, Model, Picture, Shown, Solid, Verdict, View,
 };
+use web_time::Instant;
 
+use crate::crew::Crew;
 use crate::events::Post;
 use crate::mailbox::Mailbox;
 use crate::pace::Pace;
@@ -23,6 +23,11 @@ pub struct Look {
     pub clip: Clip,
     /// Ray traced light, gathered while the camera rests.
     pub light: LightOptions,
+}
+
+impl Look {
+    /// Samples of light until an option asks for another number: enough that noise is gone.
+    pub const SAMPLES: u32 = 64;
 }
 
 /// What is to be drawn.
@@ -65,7 +70,7 @@ pub enum Stage {
     Lit(u32),
 }
 
-/// Draws on a thread of its own, until it is dropped.
+/// Draws beside all else, until it is dropped.
 #[derive(Debug)]
 pub(crate) struct Painter {
     orders: Arc<Mailbox<Order>>,
@@ -73,10 +78,14 @@ pub(crate) struct Painter {
 
 impl Painter {
     /// What is drawn, or why it cannot be, goes to `post`.
-    pub(crate) fn new(post: Post<Result<Painting, String>>) -> Self {
+    pub(crate) fn new(crew: &Arc<dyn Crew>, post: Post<Result<Painting, String>>) -> Self {
         let orders = Arc::new(Mailbox::new());
-        let taken = orders.clone();
-        thread::spawn(move || work(&taken, &post));
+        let (own, taken) = (crew.clone(), orders.clone());
+        crew.begin(Box::new(move || {
+            Box::pin(
+                async move { work(&Studio { crew: &*own, orders: &taken, post: &post }).await },
+            )
+        }));
         Self { orders }
     }
 
@@ -92,28 +101,36 @@ impl Drop for Painter {
     }
 }
 
-fn work(orders: &Mailbox<Order>, post: &Post<Result<Painting, String>>) {
+/// What all pictures share.
+struct Studio<'a> {
+    crew: &'a dyn Crew,
+    orders: &'a Mailbox<Order>,
+    post: &'a Post<Result<Painting, String>>,
+}
+
+async fn work(studio: &Studio<'_>) {
+    let Studio { orders, post, .. } = studio;
     let mut pace = Pace::default();
-    let mut next = orders.take();
+    let mut next = orders.take().await;
     while let Some(first) = next.take() {
         let (model, clip) = (first.model.clone(), first.look.clip.clone());
         let solid = match model.cut(&clip) {
             Ok(solid) => solid,
             Err(error) => {
                 post.send(Err(told(&error)));
-                next = orders.take();
+                next = orders.take().await;
                 continue;
             }
         };
         let mut order = first;
         // The same solid is kept from picture to picture, with what it learns.
         next = loop {
-            let easel = Easel { solid: &solid, order: &order, orders, post };
-            match easel.paint(&mut pace) {
+            let easel = Easel { studio, solid: &solid, order: &order };
+            match easel.paint(&mut pace).await {
                 Ok(()) | Err(Error::Interrupted) => {}
                 Err(error) => post.send(Err(told(&error))),
             }
-            match orders.take() {
+            match orders.take().await {
                 Some(next) if Arc::ptr_eq(&next.model, &model) && next.look.clip == clip => {
                     order = next;
                 }
@@ -125,66 +142,77 @@ fn work(orders: &Mailbox<Order>, post: &Post<Result<Painting, String>>) {
 
 /// One order being drawn.
 struct Easel<'a> {
+    studio: &'a Studio<'a>,
     solid: &'a Solid<'a>,
     order: &'a Order,
-    orders: &'a Mailbox<Order>,
-    post: &'a Post<Result<Painting, String>>,
 }
 
 impl Easel<'_> {
-    fn paint(&self, pace: &mut Pace) -> Result<(), Error> {
+    async fn paint(&self, pace: &mut Pace) -> Result<(), Error> {
         let &Order { size, moving, .. } = self.order;
         let (coarse, is_first) = (pace.coarse(size), pace.is_new());
         if (moving || is_first) && coarse != size {
-            self.draw(coarse, Stage::Coarse, pace)?;
+            self.draw(coarse, Stage::Coarse, pace).await?;
             if moving {
                 return Ok(());
             }
         }
-        self.draw(size, Stage::Sharp, pace)?;
+        self.draw(size, Stage::Sharp, pace).await?;
         if !moving && self.order.look.light.is_asked() {
-            self.light()?;
+            self.light().await?;
         }
         Ok(())
     }
 
-    fn draw(&self, size: (u32, u32), stage: Stage, pace: &mut Pace) -> Result<(), Error> {
+    async fn draw(&self, size: (u32, u32), stage: Stage, pace: &mut Pace) -> Result<(), Error> {
         let view = View::new(self.order.camera, size.0, size.1)?;
-        let start = Instant::now();
-        let is_sharp = !self.order.moving;
-        let watch = || self.go_on(is_sharp);
-        let shown = self.solid.draw(&view, self.order.look.picture, watch)?;
-        let time = start.elapsed();
-        pace.learn(view.pixels(), time);
-        self.show(shown, view, stage, time);
+        let mut time = Duration::ZERO;
+        let mut steps = self.solid.draw(&view, self.order.look.picture)?;
+        while let Some(shown) = timed(&mut time, || steps.next()) {
+            if let Some(shown) = shown {
+                pace.learn(view.pixels(), time);
+                self.show(shown, &view, stage, time);
+            }
+            self.turn(!self.order.moving).await?;
+        }
         Ok(())
     }
 
-    fn light(&self) -> Result<(), Error> {
+    async fn light(&self) -> Result<(), Error> {
         let (width, height) = self.order.size;
         let view = View::new(self.order.camera, width, height)?;
-        let start = Instant::now();
-        let light = &self.order.look.light;
-        self.solid.light(
-            &view,
-            light,
-            || self.go_on(true),
-            |samples, shown| {
-                self.show(shown, view.clone(), Stage::Lit(samples), start.elapsed());
-            },
-        )
+        let mut time = Duration::ZERO;
+        let mut steps = self.solid.light(&view, &self.order.look.light)?;
+        while let Some(shown) = timed(&mut time, || steps.next()) {
+            if let Some((samples, shown)) = shown {
+                self.show(shown, &view, Stage::Lit(samples), time);
+            }
+            self.turn(true).await?;
+        }
+        Ok(())
     }
 
-    /// A picture that is not to be shown at once is given up for the next order.
-    fn go_on(&self, can_be_given_up: bool) -> ControlFlow<()> {
-        let stops = if can_be_given_up { self.orders.calls() } else { self.orders.is_closed() };
-        if stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    /// Lets others have their turn. A picture that is not to be shown at once is given up for the next
+    /// order.
+    async fn turn(&self, can_be_given_up: bool) -> Result<(), Error> {
+        let Studio { crew, orders, .. } = self.studio;
+        crew.turn().await;
+        let stops = if can_be_given_up { orders.calls() } else { orders.is_closed() };
+        if stops { Err(Error::Interrupted) } else { Ok(()) }
     }
 
-    fn show(&self, shown: Shown, view: View, stage: Stage, time: Duration) {
-        let model = self.order.model.clone();
+    fn show(&self, shown: Shown, view: &View, stage: Stage, time: Duration) {
+        let (model, view) = (self.order.model.clone(), view.clone());
         let is_undecided = |hit: &&Hit| hit.verdict == Verdict::Undecided;
         let undecided = shown.hits.iter().filter(is_undecided).count();
-        self.post.send(Ok(Painting { shown, view, model, stage, undecided, time }));
+        self.studio.post.send(Ok(Painting { shown, view, model, stage, undecided, time }));
     }
+}
+
+/// Does something, and adds the time that it takes.
+fn timed<T>(time: &mut Duration, something: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let done = something();
+    *time += start.elapsed();
+    done
 }

@@ -1,26 +1,25 @@
 //! What a window shows and does, without the window.
 
-mod judging;
 mod moving;
 mod order;
 
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
-use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use fbvh::{Kind, Options};
 use glam::DVec3;
 use metaball::{Camera, Clip, Model, Overrides, Picture, ReadOptions, Viewpoint};
 use metaball_core::CameraError;
+use web_time::Instant;
 
 pub use self::moving::Timeline;
 use self::order::Ordered;
 use crate::builder::{self, Builder, Built};
 use crate::command_line::CommandLine;
+use crate::crew::Crew;
 use crate::events::{Post, Wake};
 use crate::export::{Export, Exporting, Job};
-use crate::judge::{Judged, Judging};
 use crate::painter::{Look, Painter, Painting};
 use crate::pick::Pick;
 use crate::pose::Pose;
@@ -52,9 +51,11 @@ pub enum Progress {
     Building(Instant),
 }
 
-/// The state of a window, and its threads.
+/// The state of a window, and the tasks beside it.
 pub struct Viewer {
     opener: Arc<dyn Opener>,
+    crew: Arc<dyn Crew>,
+    wake: Wake,
     subject: Option<Arc<Subject>>,
     model: Option<Arc<Model>>,
     models: u64,
@@ -83,8 +84,6 @@ pub struct Viewer {
     latest: Option<builder::Order>,
     built: Inbox<Built>,
     painted: Inbox<Result<Painting, String>>,
-    judged: Inbox<Judged>,
-    judging: Option<Judging>,
     builder: Builder,
     painter: Painter,
     exporting: Option<Exporting>,
@@ -92,7 +91,7 @@ pub struct Viewer {
     written: Inbox<Result<String, String>>,
 }
 
-/// Both ends of a channel: one for the threads that will report.
+/// Both ends of a channel: one for the tasks that will report.
 struct Inbox<T> {
     post: Post<T>,
     reports: Receiver<T>,
@@ -106,11 +105,12 @@ impl<T> Inbox<T> {
 }
 
 impl Viewer {
-    /// Begins. Threads call `wake` when they have something to show.
-    pub fn new(opener: Arc<dyn Opener>, start: Start, wake: &Wake) -> Self {
+    /// Begins. The tasks of the crew call `wake` when they have something to show.
+    pub fn new(opener: Arc<dyn Opener>, crew: Arc<dyn Crew>, start: Start, wake: &Wake) -> Self {
         let (built, painted) = (Inbox::new(wake), Inbox::new(wake));
         let mut viewer = Self {
             opener,
+            wake: wake.clone(),
             subject: None,
             model: None,
             models: 0,
@@ -133,12 +133,11 @@ impl Viewer {
             building: 0,
             given_up: 0,
             latest: None,
-            builder: Builder::new(built.post.clone()),
-            painter: Painter::new(painted.post.clone()),
+            builder: Builder::new(&*crew, built.post.clone()),
+            painter: Painter::new(&crew, painted.post.clone()),
+            crew,
             built,
             painted,
-            judged: Inbox::new(wake),
-            judging: None,
             exporting: None,
             exported: None,
             written: Inbox::new(wake),
@@ -164,7 +163,7 @@ impl Viewer {
         }
     }
 
-    /// Reads on a thread of its own, since nothing interrupts a reader: it may go on for a while after
+    /// Reads in a task of its own, since nothing interrupts a reader: it may go on for a while after
     /// it is no longer wanted.
     fn read(&mut self, spec: String, reading: ReadOptions, anew: bool) {
         self.opening += 1;
@@ -172,10 +171,12 @@ impl Viewer {
         self.progress = Progress::Reading(Instant::now());
         let (opener, id) = (self.opener.clone(), self.opening);
         let post = self.opened.post.clone();
-        thread::spawn(move || {
-            let subject = opener.open(&spec, &reading);
-            post.send((id, subject.map_err(|error| told(&*error))));
-        });
+        self.crew.begin(Box::new(move || {
+            Box::pin(async move {
+                let subject = opener.open(&spec, &reading);
+                post.send((id, subject.map_err(|error| told(&*error))));
+            })
+        }));
     }
 
     /// Gives up what is being read or built: what was there before is still shown.
@@ -204,10 +205,9 @@ impl Viewer {
         self.subject = Some(latest.subject);
     }
 
-    /// Takes what the threads have reported.
+    /// Takes what the tasks have reported.
     pub fn hear(&mut self) {
         self.take_written();
-        self.take_judged();
         while let Ok((id, subject)) = self.opened.reports.try_recv() {
             if id == self.opening {
                 self.take_subject(subject);
@@ -224,7 +224,7 @@ impl Viewer {
                         old.view == painting.view && Arc::ptr_eq(&old.model, &painting.model)
                     };
                     if !self.painting.as_ref().is_some_and(is_same) {
-                        self.see_other();
+                        self.sights += 1;
                     }
                     self.painting = Some(painting);
                     self.paintings += 1;
@@ -334,6 +334,16 @@ impl Viewer {
     /// How many pictures there have been.
     pub fn paintings(&self) -> u64 {
         self.paintings
+    }
+
+    /// How many there have been with other rays, or of another model, than the one before.
+    pub fn sights(&self) -> u64 {
+        self.sights
+    }
+
+    /// What tasks call that have something to show.
+    pub fn wake(&self) -> &Wake {
+        &self.wake
     }
 
     /// What went wrong last.
@@ -494,7 +504,7 @@ impl Viewer {
             export,
         };
         self.exported = None;
-        self.exporting = Some(Exporting::new(job, self.written.post.clone()));
+        self.exporting = Some(Exporting::new(&*self.crew, job, self.written.post.clone()));
     }
 
     /// The share of the file that is done, 0 to 1, while one is written.

@@ -15,7 +15,7 @@ use thiserror::Error;
 
 use self::canvas::Canvas;
 use self::panel::Sections;
-use crate::{Opener, Pick, Start, Viewer, Wake};
+use crate::{Judge, Opener, Pick, Start, Threads, Viewer, Wake};
 
 /// Why there is no window.
 #[derive(Debug, Error)]
@@ -51,7 +51,7 @@ pub fn open_window(opener: Arc<dyn Opener>, start: Start) -> Result<(), WindowEr
     let context = egui::Context::default();
     let waker = context.clone();
     let wake: Wake = Arc::new(move || waker.request_repaint());
-    let window = Window::new(Viewer::new(opener, start, &wake));
+    let window = Window::new(Viewer::new(opener, Arc::new(Threads), start, &wake));
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_inner_size([1280.0, 800.0])
@@ -76,6 +76,7 @@ pub struct Window {
     viewer: Viewer,
     canvas: Canvas,
     sections: Sections,
+    judge: Judge,
     picks: Vec<Pick>,
     /// Which model they are of.
     picked: u64,
@@ -85,8 +86,8 @@ pub struct Window {
 impl Window {
     /// Around a viewer.
     pub fn new(viewer: Viewer) -> Self {
-        let (canvas, sections) = (Canvas::default(), Sections::default());
-        Self { viewer, canvas, sections, picks: Vec::new(), picked: 0, title: String::new() }
+        let (canvas, sections, judge) = Default::default();
+        Self { viewer, canvas, sections, judge, picks: Vec::new(), picked: 0, title: String::new() }
     }
 
     /// What is shown and done.
@@ -104,9 +105,15 @@ impl Window {
         &self.picks
     }
 
+    /// What the reference says of the picture, where that was asked for.
+    pub fn judge(&self) -> &Judge {
+        &self.judge
+    }
+
     /// Shows all of it.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         self.viewer.hear();
+        self.judge.hear(&self.viewer);
         if self.picked != self.viewer.models() {
             self.picked = self.viewer.models();
             self.picks.clear();
@@ -116,10 +123,10 @@ impl Window {
         self.open_dropped(ui);
         Panel::bottom("status").show(ui, |ui| status::show(ui, &mut self.viewer));
         Panel::right("panel").default_size(300.0).size_range(240.0..=460.0).show(ui, |ui| {
-            self.sections.show(ui, &mut self.viewer, &mut self.picks);
+            self.sections.show(ui, &mut self.viewer, &mut self.picks, &mut self.judge);
         });
         CentralPanel::no_frame().show(ui, |ui| {
-            self.canvas.show(ui, &mut self.viewer, &mut self.picks);
+            self.canvas.show(ui, &mut self.viewer, &mut self.picks, &self.judge);
             notice::show(ui, &mut self.viewer);
         });
     }

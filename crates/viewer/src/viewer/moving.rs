@@ -1,7 +1,9 @@
 //! The frames of what moves.
 
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use web_time::Instant;
 
 use crate::subject::{Content, Subject};
 

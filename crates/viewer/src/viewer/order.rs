@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use metaball::{Camera, Model, View};
+use web_time::Instant;
 
 use crate::painter::{Look, Order, Painter, Painting};
 

@@ -1,26 +1,17 @@
 //! The picture, and what the mouse does on it.
 
-use std::ops::RangeInclusive;
-
 use eframe::egui::{
     self, Color32, ColorImage, EventFilter, Id, PointerButton, Pos2, Rect, Response, Role, Sense,
     TextureHandle, TextureOptions, Vec2, WidgetInfo,
 };
-use glam::DVec3;
 use metaball::Verdict;
 
 use super::error_map::ErrorMap;
 use super::marks;
-use crate::{Painting, Pick, Pose, Viewer};
-
-/// Radians that the eye turns for a drag across the picture's height.
-const TURN: f64 = std::f64::consts::PI;
+use crate::{Hand, Judge, Painting, Pick, Viewer};
 
 /// The share of the distance that is left after one point of scrolling.
 const ZOOM: f64 = 0.997;
-
-/// The share that is left after one scroll, at most and at least.
-const ZOOM_LIMITS: RangeInclusive<f64> = 0.2..=5.0;
 
 /// Marks pixels that arithmetic could not decide.
 const UNDECIDED: Color32 = Color32::from_rgb(255, 0, 255);
@@ -34,8 +25,7 @@ pub(super) struct Canvas {
     errors: ErrorMap,
     /// The widget that takes the keys.
     id: Option<Id>,
-    /// The point that a drag took hold of, in the coordinates of the file.
-    grabbed: Option<DVec3>,
+    hand: Hand,
 }
 
 impl Canvas {
@@ -44,14 +34,20 @@ impl Canvas {
         self.id
     }
 
-    pub(super) fn show(&mut self, ui: &mut egui::Ui, viewer: &mut Viewer, picks: &mut Vec<Pick>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut egui::Ui,
+        viewer: &mut Viewer,
+        picks: &mut Vec<Pick>,
+        judge: &Judge,
+    ) {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         let size = pixels(ui, rect);
         self.id = Some(response.id);
         focus(ui, &response);
         label(&response, viewer);
         self.turn(&response, viewer);
-        zoom(ui, &response, viewer);
+        self.zoom(ui, &response, viewer);
         pick(&response, size, viewer, picks);
         if let Some(wait) = viewer.draw(size, response.is_pointer_button_down_on()) {
             ui.ctx().request_repaint_after(wait);
@@ -63,7 +59,7 @@ impl Canvas {
             let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
             painter.image(texture.id(), rect, whole, Color32::WHITE);
         }
-        self.errors.show(ui, rect, viewer);
+        self.errors.show(ui, rect, judge);
         if let Some(pose) = viewer.pose() {
             marks::picks(&painter, rect, &pose, picks);
             marks::axes(&painter, rect, &pose);
@@ -72,10 +68,10 @@ impl Canvas {
 
     /// Drags: turning about the middle, or moving along with the point under the cursor.
     fn turn(&mut self, response: &Response, viewer: &mut Viewer) {
-        let Some(pose) = viewer.pose() else { return };
-        if response.drag_started() {
-            let place = response.interact_pointer_pos().map(|at| place(response.rect, at));
-            self.grabbed = place.and_then(|place| viewer.point_at(place));
+        if response.drag_started()
+            && let Some(at) = response.interact_pointer_pos()
+        {
+            self.hand.grab(viewer, place(response.rect, at));
         }
         let shift = response.ctx.input(|input| input.modifiers.shift);
         let height = f64::from(response.rect.height());
@@ -85,11 +81,19 @@ impl Canvas {
             return;
         }
         if response.dragged_by(PointerButton::Primary) && !shift {
-            viewer.set_pose(pose.orbited(TURN * right, TURN * down));
+            self.hand.turn(viewer, right, down);
         } else {
-            let depth = self.grabbed.map_or(pose.distance(), |point| depth_of(&pose, point));
-            let units = pose.height_at(depth);
-            viewer.set_pose(pose.moved(units * DVec3::new(-right, down, 0.0)));
+            self.hand.slide(viewer, right, down);
+        }
+    }
+
+    /// Scrolls and pinches: towards the point under the cursor.
+    fn zoom(&self, ui: &egui::Ui, response: &Response, viewer: &mut Viewer) {
+        let (scrolled, pinched) =
+            ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+        if let Some(at) = response.hover_pos() {
+            let share = ZOOM.powf(scrolled.into()) / f64::from(pinched);
+            self.hand.zoom(viewer, place(response.rect, at), share);
         }
     }
 
@@ -159,34 +163,6 @@ fn pixels(ui: &egui::Ui, rect: Rect) -> (u32, u32) {
 fn place(rect: Rect, at: Pos2) -> (f64, f64) {
     let place = (at - rect.min) / rect.size();
     (place.x.into(), place.y.into())
-}
-
-/// How far in front of the eye.
-fn depth_of(pose: &Pose, point: DVec3) -> f64 {
-    (point - pose.eye).dot(pose.axes()[2])
-}
-
-/// Scrolls and pinches: towards the point under the cursor, or the one behind it that is as far as the
-/// middle.
-fn zoom(ui: &egui::Ui, response: &Response, viewer: &mut Viewer) {
-    let (scrolled, pinched) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-    let share = (ZOOM.powf(scrolled.into()) / f64::from(pinched))
-        .clamp(*ZOOM_LIMITS.start(), *ZOOM_LIMITS.end());
-    let (Some(at), Some(pose)) = (response.hover_pos(), viewer.pose()) else { return };
-    if share == 1.0 {
-        return;
-    }
-    let place = place(response.rect, at);
-    let about = viewer.point_at(place).unwrap_or_else(|| behind(&pose, response.rect, place));
-    viewer.set_pose(pose.zoomed(about, share));
-}
-
-/// The point behind a place of the picture that is as far in front of the eye as the middle.
-fn behind(pose: &Pose, rect: Rect, (right, down): (f64, f64)) -> DVec3 {
-    let units = pose.height_at(pose.distance());
-    let aspect = f64::from(rect.width() / rect.height());
-    let across = DVec3::new((right - 0.5) * aspect, 0.5 - down, 0.0);
-    pose.moved(units * across).look_at
 }
 
 /// Clicks: the point that was hit, or none; a second one with it. Double clicks look at it.

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions};
 use harness::heat;
 
-use crate::{Verdicts, Viewer};
+use crate::{Judge, Verdicts};
 
 /// The map on the graphics side.
 #[derive(Default)]
@@ -14,8 +14,8 @@ pub(super) struct ErrorMap {
 }
 
 impl ErrorMap {
-    pub(super) fn show(&mut self, ui: &egui::Ui, rect: Rect, viewer: &Viewer) {
-        let Some(verdicts) = viewer.verdicts().filter(|found| !found.judgements.is_empty()) else {
+    pub(super) fn show(&mut self, ui: &egui::Ui, rect: Rect, judge: &Judge) {
+        let Some(verdicts) = judge.verdicts().filter(|found| !found.judgements.is_empty()) else {
             self.shown = 0;
             return;
         };

@@ -15,7 +15,7 @@ use self::output::Naming;
 use self::scene::Opening;
 use self::surface::Coloring;
 use super::keys::KEYS;
-use crate::{Pick, Viewer};
+use crate::{Judge, Pick, Viewer};
 
 /// What the sections remember.
 #[derive(Default)]
@@ -26,7 +26,13 @@ pub(super) struct Sections {
 }
 
 impl Sections {
-    pub(super) fn show(&mut self, ui: &mut Ui, viewer: &mut Viewer, picks: &mut Vec<Pick>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        viewer: &mut Viewer,
+        picks: &mut Vec<Pick>,
+        judge: &mut Judge,
+    ) {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
             section(ui, "Scene", true, |ui| self.opening.show(ui, viewer));
@@ -37,7 +43,7 @@ impl Sections {
                 section(ui, "Light", false, |ui| light::show(ui, viewer));
                 section(ui, "Cut", false, |ui| cut::show(ui, viewer));
                 section(ui, "Points", true, |ui| point::show(ui, viewer, picks));
-                section(ui, "Truth", false, |ui| truth::show(ui, viewer));
+                section(ui, "Truth", false, |ui| truth::show(ui, viewer, judge));
                 section(ui, "Camera", false, |ui| camera::show(ui, viewer));
                 section(ui, "Picture", false, |ui| self.naming.show(ui, viewer));
             }

@@ -10,7 +10,7 @@ use metaball::{
     Backend, BoxError, DrawOptions, Drawing, LightOptions, Overrides, Picture, ReadOptions,
     Viewpoint, draw,
 };
-use viewer::{Content, Look, Opener, Stage, Start, Subject, Viewer, Window};
+use viewer::{Content, Look, Opener, Stage, Start, Subject, Threads, Viewer, Window};
 
 /// Threads beside the window may take this long on a machine that is busy.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -65,16 +65,21 @@ pub(crate) fn window(spec: &str) -> Harness<'static, Window> {
 pub(crate) fn window_of(opener: Arc<dyn Opener>, start: Start) -> Harness<'static, Window> {
     let woken = Arc::new(AtomicBool::new(false));
     let wake: viewer::Wake = Arc::new(move || woken.store(true, Ordering::Relaxed));
-    let window = Window::new(Viewer::new(opener, start, &wake));
+    let window = Window::new(Viewer::new(opener, Arc::new(Threads), start, &wake));
     Harness::builder()
         .with_size(SIZE)
         .build_ui_state(|ui, window: &mut Window| window.show(ui), window)
 }
 
-/// Shows frame after frame until it is so.
+/// Shows frame after frame until it is so of the viewer.
 pub(crate) fn until(harness: &mut Harness<'_, Window>, is_so: impl Fn(&Viewer) -> bool) {
+    until_it(harness, |window| is_so(window.viewer()));
+}
+
+/// Shows frame after frame until it is so.
+pub(crate) fn until_it(harness: &mut Harness<'_, Window>, is_so: impl Fn(&Window) -> bool) {
     let begin = Instant::now();
-    while !is_so(harness.state().viewer()) {
+    while !is_so(harness.state()) {
         assert!(begin.elapsed() < PATIENCE, "it never is");
         std::thread::sleep(Duration::from_millis(5));
         harness.step();

@@ -5,8 +5,9 @@ use egui_kittest::kittest::Queryable;
 use fbvh::Kind;
 use harness::score::Judgement;
 use metaball_core::reference::Oracle;
+use viewer::{Verdicts, Window};
 
-use crate::stage::{until, until_sharp, window};
+use crate::stage::{until, until_it, until_sharp, window};
 
 #[test]
 fn the_certified_tree_is_never_wrong_and_a_published_one_is() {
@@ -27,11 +28,11 @@ fn the_certified_tree_is_never_wrong_and_a_published_one_is() {
         }
         harness.get_by_label("Hold against the reference").click();
         harness.step();
-        until(&mut harness, |viewer| {
-            viewer.verdicts().is_some_and(|verdicts| verdicts.progress() >= 1.0)
-        });
-        let viewer = harness.state().viewer();
-        let (painting, verdicts) = (viewer.painting().expect("sharp"), viewer.verdicts());
+        let verdicts = |window: &Window| window.judge().verdicts().map(Verdicts::progress);
+        until_it(&mut harness, |window| verdicts(window).is_some_and(|progress| progress >= 1.0));
+        let window = harness.state();
+        let (painting, verdicts) =
+            (window.viewer().painting().expect("sharp"), window.judge().verdicts());
         let verdicts = verdicts.expect("judged");
         let truths = Oracle::new(painting.model.scene()).first_hits(&painting.view.rays());
         let wanted: Vec<_> = truths
@@ -48,5 +49,5 @@ fn the_certified_tree_is_never_wrong_and_a_published_one_is() {
     harness.key_press(eframe::egui::Key::X);
     harness.step();
     until_sharp(&mut harness);
-    assert!(harness.state().viewer().verdicts().is_none(), "of another picture");
+    assert!(harness.state().judge().verdicts().is_none(), "of another picture");
 }

@@ -1,28 +1,14 @@
 //! A plane that cuts the solid.
 
-use std::ops::RangeInclusive;
-
 use eframe::egui::{Slider, Ui};
-use glam::{DVec3, Vec3};
-use metaball::{Clip, Model};
 
 use super::number;
-use crate::{Look, Viewer};
-
-/// Outward normals to choose from.
-const NORMALS: [(Vec3, &str); 6] = [
-    (Vec3::X, "+x"),
-    (Vec3::NEG_X, "-x"),
-    (Vec3::Y, "+y"),
-    (Vec3::NEG_Y, "-y"),
-    (Vec3::Z, "+z"),
-    (Vec3::NEG_Z, "-z"),
-];
+use crate::Viewer;
+use crate::cut::{NORMALS, cut, last_plane, reach};
 
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     let (Some(model), Some(pose)) = (viewer.model(), viewer.pose()) else { return };
-    let planes: Vec<_> = viewer.look().clip.planes().collect();
-    let old = planes.last().copied();
+    let old = last_plane(viewer.look());
     let mut new = old;
     ui.weak("Away with what lies beyond a plane:");
     ui.horizontal_wrapped(|ui| {
@@ -44,22 +30,6 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
         ui.add(slider);
     }
     if new != old {
-        let others = &planes[..planes.len().saturating_sub(1)];
-        if let Some(clip) = others
-            .iter()
-            .chain(&new)
-            .try_fold(Clip::default(), |clip, plane| clip.and_plane(plane.0, plane.1).ok())
-        {
-            viewer.set_look(Look { clip, ..viewer.look().clone() });
-        }
+        cut(viewer, new);
     }
-}
-
-/// From where to where planes of this normal meet the scene, in the coordinates of its file.
-fn reach(model: &Model, normal: Vec3) -> RangeInclusive<f64> {
-    let bounds = model.bounds();
-    let (normal, half) = (normal.as_dvec3(), 0.5 * bounds.extent().as_dvec3());
-    let middle = (bounds.center().as_dvec3() + model.scene().origin()).dot(normal);
-    let reach = half.dot(normal.abs() * DVec3::ONE).max(f64::MIN_POSITIVE);
-    middle - reach..=middle + reach
 }

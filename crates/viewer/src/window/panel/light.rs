@@ -3,10 +3,7 @@
 use eframe::egui::{Checkbox, ComboBox, Slider, Ui};
 use metaball::{FloorKind, LightOptions};
 
-use crate::{Look, Viewer};
-
-/// Samples until an option asks for another number: enough that noise is gone.
-const SAMPLES: u32 = 64;
+use crate::{Look, Material, Viewer};
 
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     let old = &viewer.look().light;
@@ -22,7 +19,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
         if ui.add(Slider::new(&mut exposure, -3.0..=3.0).text("Exposure")).changed() {
             light.exposure = (exposure != 0.0).then_some(exposure);
         }
-        let mut samples = light.samples.unwrap_or(SAMPLES);
+        let mut samples = light.samples.unwrap_or(Look::SAMPLES);
         ui.add(Slider::new(&mut samples, 1..=1024).logarithmic(true).text("Samples"));
         light.samples = Some(samples);
     } else {
@@ -56,62 +53,14 @@ fn occlusion(ui: &mut Ui, light: &mut LightOptions) {
     }
 }
 
-/// What the surface is made of.
-#[derive(Clone, Copy, PartialEq)]
-enum Material {
-    Matt,
-    Mirror,
-    SeeThrough,
-    Fluid,
-}
-
-impl Material {
-    const ALL: [(Self, &str); 4] = [
-        (Self::Matt, "matt"),
-        (Self::Mirror, "mirror"),
-        (Self::SeeThrough, "see-through"),
-        (Self::Fluid, "clear fluid"),
-    ];
-
-    fn of(light: &LightOptions) -> Self {
-        match light {
-            LightOptions { refraction: Some(_), .. } => Self::Fluid,
-            LightOptions { opacity: Some(_), .. } => Self::SeeThrough,
-            LightOptions { reflections: Some(_), .. } => Self::Mirror,
-            _ => Self::Matt,
-        }
-    }
-
-    fn put_into(self, light: &mut LightOptions) {
-        let plain = LightOptions::default();
-        *light = LightOptions {
-            reflections: (self == Self::Mirror).then_some(2),
-            reflectivity: plain.reflectivity,
-            opacity: (self == Self::SeeThrough).then_some(0.4),
-            refraction: (self == Self::Fluid).then_some(1.33),
-            absorption: plain.absorption,
-            bounces: plain.bounces,
-            ..light.clone()
-        };
-        if self == Self::Fluid {
-            (light.shadows, light.lamp_size) = (false, None);
-            (light.ambient_occlusion, light.occlusion_reach, light.cel) = (None, None, None);
-        }
-    }
-}
-
 fn surface(ui: &mut Ui, light: &mut LightOptions) {
     let old = Material::of(light);
     let mut material = old;
-    let named = Material::ALL.into_iter().find(|(kind, _)| *kind == old);
-    ComboBox::from_label("Material").selected_text(named.map_or("", |(_, name)| name)).show_ui(
-        ui,
-        |ui| {
-            for (kind, name) in Material::ALL {
-                ui.selectable_value(&mut material, kind, name);
-            }
-        },
-    );
+    ComboBox::from_label("Material").selected_text(old.name()).show_ui(ui, |ui| {
+        for kind in Material::ALL {
+            ui.selectable_value(&mut material, kind, kind.name());
+        }
+    });
     if material != old {
         material.put_into(light);
     }

@@ -5,11 +5,11 @@ use fbvh::Kind;
 use harness::heat;
 
 use super::{row, swatch};
-use crate::{Verdicts, Viewer};
+use crate::{Judge, Verdicts, Viewer};
 
 const KINDS: [Kind; 3] = [Kind::Certified, Kind::Fitted, Kind::ModifiedBvh];
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, judge: &mut Judge) {
     let mut kind = viewer.kind();
     ComboBox::from_label("Method").selected_text(kind.name()).show_ui(ui, |ui| {
         for other in KINDS {
@@ -19,16 +19,16 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     viewer.set_kind(kind);
     ui.horizontal(|ui| {
         let button = Button::new("Hold against the reference");
-        let judge = ui.add_enabled(viewer.can_be_judged(), button);
-        if judge.on_disabled_hover_text("Needs a sharp picture without a cut").clicked() {
-            viewer.judge();
+        let asks = ui.add_enabled(Judge::is_able(viewer), button);
+        if asks.on_disabled_hover_text("Needs a sharp picture without a cut").clicked() {
+            judge.judge(viewer);
         }
-        let is_there = viewer.verdicts().is_some();
+        let is_there = judge.verdicts().is_some();
         if ui.add_enabled(is_there, Button::new("Hide")).clicked() {
-            viewer.forget_verdicts();
+            judge.forget();
         }
     });
-    if let Some(verdicts) = viewer.verdicts() {
+    if let Some(verdicts) = judge.verdicts() {
         report(ui, verdicts);
     }
 }
