@@ -64,7 +64,7 @@ pub fn stability(options: &Options) -> anyhow::Result<()> {
     let (methods, left_out): (Vec<_>, Vec<_>) =
         methods.into_iter().partition(|method| gpu.is_some() || !method.needs_adapter());
     if methods.is_empty() {
-        let said = "stability: needed a method that runs here, found none";
+        let said = "needed a graphics adapter for all of these methods, found none";
         return Err(nothing_done(said, (options.adapter.as_ref(), gpu), &left_out));
     }
 
