@@ -1,7 +1,7 @@
 //! The command `device`: everything that a graphics processor is to be measured by, in a few minutes, by
 //! one command and without a second try.
 //!
-//! A [`part`] is a command of this program, run as a process of its own for no longer than its share of the
+//! A part is a command of this program, run as a process of its own for no longer than its share of the
 //! time: what panics, hangs or loses the device ends its part and no other. After each part the whole
 //! [`record`] is written, with what the part has measured so far in it, and a summary beside it. Where
 //! [`vulkan`] has no graphics processor to show, the record says what is missing, and the CPU measures what

@@ -35,7 +35,7 @@ pub(crate) enum Act {
     /// Back to where it was first seen from.
     Home,
     /// Looks along an axis.
-    Along { axis: DVec3 },
+    Along { axis: [f64; 3] },
     /// Gives up what is being read or built.
     Cancel,
     /// Another kernel, by its name.
@@ -51,7 +51,7 @@ pub(crate) enum Act {
     /// Another light.
     Light(Light),
     /// Cuts by a plane in the place of the last one, or by none.
-    Cut { plane: Option<(Vec3, f64)> },
+    Cut { plane: Option<([f32; 3], f64)> },
 }
 
 /// What a picture shows.
@@ -98,7 +98,7 @@ impl Act {
             Self::Pick { at, centre } => front.pick(at, centre),
             Self::Forget => picks.clear(),
             Self::Home => viewer.go_home(),
-            Self::Along { axis } => pose(front, |pose| pose.seen_from(axis)),
+            Self::Along { axis } => pose(front, |pose| pose.seen_from(DVec3::from(axis))),
             Self::Cancel => viewer.cancel(),
             Self::Kernel { name } => {
                 let kernel = Kernel::all().find(|kernel| kernel.to_string() == name);
@@ -130,7 +130,9 @@ impl Act {
                 let light = light.options();
                 viewer.set_look(Look { light, ..viewer.look().clone() });
             }
-            Self::Cut { plane } => cut(viewer, plane),
+            Self::Cut { plane } => {
+                cut(viewer, plane.map(|(normal, offset)| (Vec3::from(normal), offset)));
+            }
         }
     }
 }

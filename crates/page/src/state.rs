@@ -2,7 +2,6 @@
 
 use std::ptr;
 
-use glam::{DVec3, Vec3};
 use metaball::{NoteKind, legend_svg};
 use metaball_core::Kernel;
 use serde::Serialize;
@@ -37,7 +36,7 @@ struct Scene {
     name: String,
     balls: usize,
     /// Scene units.
-    size: Vec3,
+    size: [f32; 3],
     build_ms: f64,
     tree_bytes: usize,
     notes: Vec<(&'static str, String)>,
@@ -53,8 +52,8 @@ struct Scene {
     frame: Option<u32>,
     shown: Shown,
     /// Outward normals that a cut may have, with their names, and from where to where its plane may lie.
-    normals: Vec<(Vec3, &'static str, f64, f64)>,
-    cut: Option<(Vec3, f64)>,
+    normals: Vec<([f32; 3], &'static str, f64, f64)>,
+    cut: Option<([f32; 3], f64)>,
 }
 
 #[derive(Debug, PartialEq, Serialize)]
@@ -73,8 +72,8 @@ struct PictureState {
 
 #[derive(Debug, PartialEq, Serialize)]
 struct Point {
-    position: DVec3,
-    normal: Vec3,
+    position: [f64; 3],
+    normal: [f32; 3],
     t: f32,
     field: f64,
     is_inside: bool,
@@ -127,7 +126,7 @@ impl Scene {
         Some(Self {
             name: subject.name.clone(),
             balls: scene.len(),
-            size: model.bounds().extent(),
+            size: model.bounds().extent().to_array(),
             build_ms: 1e3 * model.build_time().as_secs_f64(),
             tree_bytes: model.tree_bytes(),
             notes: subject
@@ -148,10 +147,10 @@ impl Scene {
             normals: normals
                 .map(|(normal, name)| {
                     let range = reach(model, normal);
-                    (normal, name, *range.start(), *range.end())
+                    (normal.to_array(), name, *range.start(), *range.end())
                 })
                 .collect(),
-            cut: last_plane(viewer.look()),
+            cut: last_plane(viewer.look()).map(|(normal, offset)| (normal.to_array(), offset)),
         })
     }
 }
@@ -183,8 +182,8 @@ impl Point {
     fn of(pick: &Pick) -> Self {
         let shares = pick.shares.iter().take(LISTED);
         Self {
-            position: pick.point,
-            normal: pick.normal(),
+            position: pick.point.to_array(),
+            normal: pick.normal().to_array(),
             t: pick.hit.t,
             field: pick.field,
             is_inside: pick.is_inside(),
