@@ -7,8 +7,10 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -25,10 +27,30 @@ def script(name: str) -> ModuleType:
     return module
 
 
+def workers_of(cluster: int, count: int) -> list[int]:
+    """So many workers of a cluster, by the numbers of their processes, as soon as it has them."""
+    psutil = pytest.importorskip("psutil")
+
+    def is_worker(child: Any) -> bool:
+        try:
+            return "spawn_main" in " ".join(child.cmdline())
+        except psutil.Error:
+            # It has ended since.
+            return False
+
+    workers: list[int] = []
+    latest = time.monotonic() + 60.0
+    while time.monotonic() < latest:
+        workers = [child.pid for child in psutil.Process(cluster).children() if is_worker(child)]
+        if len(workers) >= count:
+            return workers[:count]
+        time.sleep(0.05)
+    raise TimeoutError(f"workers: needed {count}, found {len(workers)}")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="processes end otherwise there")
 def test_workers_of_dask_are_killed_and_no_frame_is_lost(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
-    psutil = pytest.importorskip("psutil")
     command = [sys.executable, str(GALLERY / "dask_frames.py"), str(tmp_path)]
     running = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -38,11 +60,9 @@ def test_workers_of_dask_are_killed_and_no_frame_is_lost(tmp_path: Path) -> None
         killed = []
         for drawn in range(2):
             assert running.stdout.readline().startswith("frame "), drawn
-            children = psutil.Process(running.pid).children()
-            workers = [child for child in children if "spawn_main" in " ".join(child.cmdline())]
-            for worker in workers[: drawn + 1]:
-                worker.send_signal(signal.SIGKILL)
-                killed.append(worker.pid)
+            for worker in workers_of(running.pid, drawn + 1):
+                os.kill(worker, signal.SIGKILL)
+                killed.append(worker)
         said, complaint = running.communicate(timeout=100)
     finally:
         running.kill()
