@@ -268,7 +268,6 @@ impl Kernel {
         let v = v.max(0.0);
         match self {
             Self::Power(exponent) => power(v, exponent.0),
-            Self::Wyvill => v * v * (5.0 + 4.0 * v) * (1.0 / 9.0),
             Self::Perlin => {
                 let rho = (1.0 - v).max(0.0).sqrt();
                 let rest = v / (1.0 + rho);
@@ -286,7 +285,6 @@ impl Kernel {
         }
         match self {
             Self::Power(exponent) => f32::from(exponent.0) * power(v, exponent.0 - 1),
-            Self::Wyvill => v * (10.0 + 12.0 * v) * (1.0 / 9.0),
             Self::Perlin => {
                 let rho = (1.0 - v).max(0.0).sqrt();
                 let rest = v / (1.0 + rho);
