@@ -2,8 +2,8 @@
 //!
 //! [`load()`] takes what a user types: a name of [`known()`], a generator's spec
 //! (`tornado:5000:40:7`), or the path of a file, which `particle-files` reads. The [`cases()`] are scenes
-//! with a parameter that is varied until a method breaks, [`arbitrary()`] and [`carved()`] ones are of any kind, by seed.
-//! [`Moving`] scenes have a scene for each frame.
+//! with a parameter that is varied until a method breaks, [`arbitrary()`] and [`carved()`] ones are of any kind,
+//! by seed. [`Moving`] scenes have a scene for each frame.
 //! Nothing here knows of any method or GPU.
 //!
 //! ```

@@ -1,10 +1,9 @@
 //! The command `certify`: the certified tree against the oracle, over as many rays as one has time for.
 //!
 //! Scenes are every stability case within the stated limits, then arbitrary ones by seed, every fourth with a
-//! third of its balls negative. The rays of each
-//! are a picture's, others at its balls, along its surface, along the faces of the tree's boxes, and out of
-//! the solid. The CPU's tracer answers all of them, the shaders a third where no ball is negative; neither may be wrong on a ray
-//! that is clear to the oracle.
+//! third of its balls negative. The rays of each are a picture's, others at its balls, along its surface, along
+//! the faces of the tree's boxes, and out of the solid. The CPU's tracer answers all of them, the shaders a third
+//! where no ball is negative; neither may be wrong on a ray that is clear to the oracle.
 
 pub mod adapter;
 pub mod ray_distribution;

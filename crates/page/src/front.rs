@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use metaball::{Clip, Image, LightOptions, Overrides, Picture, ReadOptions, Viewpoint};
-use viewer::{Crew, Hand, Look, Pick, Start, Viewer, Wake};
+use metaball::Image;
+use viewer::{Crew, Hand, Pick, Start, Viewer, Wake};
 
 use crate::act::Act;
 use crate::files::Files;
@@ -33,19 +33,8 @@ impl Front {
     /// With nothing to be seen yet.
     pub(crate) fn new(crew: Arc<dyn Crew>, wake: &Wake) -> Self {
         let files = Arc::new(Files::default());
-        let start = Start {
-            spec: None,
-            reading: ReadOptions::default(),
-            field: Overrides::default(),
-            viewpoint: Viewpoint::default(),
-            look: Look {
-                picture: Picture::Phong,
-                clip: Clip::default(),
-                light: LightOptions::default(),
-            },
-        };
         Self {
-            viewer: Viewer::new(files.clone(), crew, start, wake),
+            viewer: Viewer::new(files.clone(), crew, Start::default(), wake),
             hand: Hand::default(),
             picks: Vec::new(),
             held: false,

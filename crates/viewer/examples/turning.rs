@@ -8,8 +8,8 @@ use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use metaball::{BoxError, Clip, LightOptions, Overrides, Picture, ReadOptions, Viewpoint};
-use viewer::{Content, Look, Opener, Painting, Stage, Start, Subject, Threads, Viewer};
+use metaball::{BoxError, Overrides, ReadOptions};
+use viewer::{Content, Opener, Painting, Stage, Start, Subject, Threads, Viewer};
 
 const SIZE: (u32, u32) = (1280, 720);
 const TURNS: usize = 90;
@@ -84,15 +84,5 @@ fn next(viewer: &mut Viewer, held: bool) -> Result<&Painting, Box<dyn Error>> {
 }
 
 fn start(spec: &str) -> Start {
-    Start {
-        spec: Some(spec.to_owned()),
-        reading: ReadOptions::default(),
-        field: Overrides::default(),
-        viewpoint: Viewpoint::default(),
-        look: Look {
-            picture: Picture::Phong,
-            clip: Clip::default(),
-            light: LightOptions::default(),
-        },
-    }
+    Start { spec: Some(spec.to_owned()), ..Start::default() }
 }

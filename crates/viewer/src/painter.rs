@@ -25,6 +25,12 @@ pub struct Look {
     pub light: LightOptions,
 }
 
+impl Default for Look {
+    fn default() -> Self {
+        Self { picture: Picture::Phong, clip: Clip::default(), light: LightOptions::default() }
+    }
+}
+
 impl Look {
     /// Samples of light until an option asks for another number: enough that noise is gone.
     pub const SAMPLES: u32 = 64;

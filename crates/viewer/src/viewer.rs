@@ -25,8 +25,8 @@ use crate::pick::Pick;
 use crate::pose::Pose;
 use crate::subject::{Opener, Subject, told};
 
-/// What a window begins with.
-#[derive(Debug, Clone)]
+/// What a window begins with; nothing, by default.
+#[derive(Debug, Clone, Default)]
 pub struct Start {
     /// What is opened, if anything.
     pub spec: Option<String>,

@@ -6,11 +6,8 @@ use std::time::{Duration, Instant};
 
 use bench_scenes::{Moving, load_as};
 use egui_kittest::Harness;
-use metaball::{
-    Backend, BoxError, DrawOptions, Drawing, LightOptions, Overrides, Picture, ReadOptions,
-    Viewpoint, draw,
-};
-use viewer::{Content, Look, Opener, Stage, Start, Subject, Threads, Viewer, Window};
+use metaball::{Backend, BoxError, DrawOptions, Drawing, Overrides, ReadOptions, draw};
+use viewer::{Content, Opener, Stage, Start, Subject, Threads, Viewer, Window};
 
 /// Threads beside the window may take this long on a machine that is busy.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -43,18 +40,7 @@ impl Opener for Bench {
 }
 
 pub(crate) fn start(spec: &str) -> Start {
-    let look = Look {
-        picture: Picture::Phong,
-        clip: metaball::Clip::default(),
-        light: LightOptions::default(),
-    };
-    Start {
-        spec: Some(spec.to_owned()),
-        reading: ReadOptions::default(),
-        field: Overrides::default(),
-        viewpoint: Viewpoint::default(),
-        look,
-    }
+    Start { spec: Some(spec.to_owned()), ..Start::default() }
 }
 
 /// A window on a scene.
